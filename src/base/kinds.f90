@@ -1,0 +1,10 @@
+!> Working precision. Every real in the program is `real(wp)`.
+module kinds
+  use, intrinsic :: iso_fortran_env, only: real64, int64
+  implicit none
+  private
+
+  integer, parameter, public :: wp = real64    !< kind of every real
+  integer, parameter, public :: i8 = int64     !< kind of clocks and of counts beyond two thousand million
+
+end module kinds

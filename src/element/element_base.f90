@@ -1,0 +1,53 @@
+!> What every element provides: generalized strains of the nodal coordinates, their first and
+!> second derivatives, and a law for the stress resultants. Assembly knows nothing else.
+module element_base
+  use kinds, only: wp
+  use nodal_state, only: state_t
+  implicit none
+  private
+
+  integer, parameter, public :: max_strains = 9, max_coordinates = 22
+
+  !> Base of all elements.
+  type, abstract, public :: element_t
+    integer :: strains = 0                   !< number of generalized strains
+    integer :: coordinates = 0               !< number of coordinates they depend on
+    integer, allocatable :: coordinate(:)    !< their numbers, see `nodal_state`
+    logical, allocatable :: fixed(:)         !< by strain: held at zero, its stress is a multiplier
+    integer :: section_node(2) = 0           !< rotational nodes of its end sections; 0: it has none
+    real(wp) :: triad(3, 3) = 0.0_wp         !< initial axes eX eY eZ of the sections
+  contains
+    procedure(evaluate_interface), deferred :: evaluate
+    procedure(law_interface), deferred :: law
+  end type element_t
+
+  !> An array of these is a list of elements of any type.
+  type, public :: element_slot_t
+    class(element_t), allocatable :: e
+  end type element_slot_t
+
+  abstract interface
+    !> Strains, their Jacobian, and the second derivatives contracted with `stress`.
+    pure subroutine evaluate_interface(self, state, stress, strain, jacobian, geometric, valid)
+      import :: element_t, state_t, wp
+      implicit none
+      class(element_t), intent(in) :: self
+      type(state_t), intent(in) :: state
+      real(wp), intent(in) :: stress(self%strains)
+      real(wp), intent(out) :: strain(self%strains)
+      real(wp), intent(out) :: jacobian(self%strains, self%coordinates)
+      !> sum of stress(i) times the Hessian of strain i; symmetric
+      real(wp), intent(out) :: geometric(self%coordinates, self%coordinates)
+      logical, intent(out) :: valid  !< false: rotations beyond what the element can describe
+    end subroutine evaluate_interface
+
+    !> The stiffness between strains and stress resultants; rows of fixed strains are zero.
+    pure subroutine law_interface(self, stiffness)
+      import :: element_t, wp
+      implicit none
+      class(element_t), intent(in) :: self
+      real(wp), intent(out) :: stiffness(self%strains, self%strains)
+    end subroutine law_interface
+  end interface
+
+end module element_base

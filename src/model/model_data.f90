@@ -1,0 +1,163 @@
+!> The mechanical model that a deck describes: plain data, in the units of the deck.
+!>
+!> Entities refer to each other by index. Where a place is kept, it is the card that made the entity.
+module model_data
+  use kinds, only: wp
+  use diagnostics, only: place_t
+  use formula, only: formula_t
+  use section_data, only: section_constants_t, section_geometry_t
+  implicit none
+  private
+
+  public :: model_t, node_t, material_t, section_t, member_t, load_t, pattern_t, marker_t
+  public :: function_t, analysis_t, setting_t
+
+  !> Kinds of nodes; an id names up to one of each.
+  integer, parameter, public :: translational = 1, rotational = 2, warping = 3
+
+  !> Status of a generalized strain.
+  integer, parameter, public :: mode_fixed = 0, mode_flexible = 1, mode_released = 2
+
+  !> Types of elements.
+  integer, parameter, public :: type_beamw = 1
+
+  !> Options of a beam.
+  integer, parameter, public :: second_none = 0, second_jonker = 1, second_consistent = 2
+  integer, parameter, public :: mass_none = 0, mass_lumped = 1, mass_consistent = 2
+
+  !> Kinds of functions of the load factor (or time).
+  integer, parameter, public :: function_ramp = 1, function_sine = 2, function_step = 3, &
+                                function_table = 4, function_formula = 5
+
+  !> Kinds of analyses.
+  integer, parameter, public :: analysis_static = 1
+
+  integer, parameter, public :: name_length = 64  !< longest name of a material, section, ...
+  integer, parameter, public :: components = 7    !< of a node: X Y Z RX RY RZ W
+
+  !> A node id: position and which of its three nodes exist.
+  type :: node_t
+    integer :: id = 0                   !< id of the deck; for an inner node of a divided element, the element's
+    integer :: part = 0                 !< 0, or the number of the inner node
+    real(wp) :: position(3) = 0.0_wp    !< initial position [L]
+    logical :: placed = .false.         !< has a position
+    logical :: exists(3) = .false.      !< by kind: an element uses it
+    logical :: fixed(components) = .false.
+    type(place_t) :: place              !< its NODE card, or the first card that names it
+    type(place_t) :: fix_place          !< its last FIX card
+  end type node_t
+
+  type :: material_t
+    character(len=name_length) :: name = ""
+    real(wp) :: e = 0.0_wp        !< Young's modulus [F L^-2]
+    real(wp) :: g = 0.0_wp        !< shear modulus [F L^-2]
+    real(wp) :: rho = 0.0_wp      !< density [M L^-3]
+    real(wp) :: damping = 0.0_wp  !< stiffness-proportional damping [T]
+    type(place_t) :: place
+  end type material_t
+
+  type :: section_t
+    character(len=name_length) :: name = ""
+    type(section_constants_t) :: constants
+    type(section_geometry_t) :: geometry
+    type(place_t) :: place
+  end type section_t
+
+  !> One element (a part of a divided one counts as one).
+  type :: member_t
+    integer :: id = 0
+    integer :: part = 0                 !< 0, or 1..n for the parts of a divided element
+    integer :: kind = type_beamw        !< one of `type_*`
+    integer :: node(3, 2) = 0           !< node index by kind and end (1 = p, 2 = q); 0: none
+    real(wp) :: chord(3) = 0.0_wp       !< initial vector from p to q [L]; the same for all parts
+    real(wp) :: orientation(3) = 0.0_wp !< direction of the section's y axis as given; zero: the default rule
+    real(wp) :: triad(3, 3) = 0.0_wp    !< columns eX eY eZ, principal axes (set by model_check)
+    integer :: section = 0              !< index; 0: none
+    integer :: material = 0             !< index; 0: none
+    integer :: second = second_consistent
+    integer :: mass = mass_consistent
+    logical :: shear = .true.
+    logical :: rotary = .true.
+    logical :: rigid = .false.          !< RIGID given: no mode flexible, mass kept
+    integer :: status(8) = mode_fixed   !< of each mode, one of `mode_*` (final: defaults resolved)
+    logical :: has_stiffness = .false.  !< ESTIFF given
+    real(wp) :: stiffness(7) = 0.0_wp   !< ESTIFF: EA [F], GIt EIy EIz [F L^2], cy cz [L^2], EIw [F L^4]
+    logical :: has_inertia = .false.    !< EM given
+    real(wp) :: inertia(6) = 0.0_wp     !< EM: rho A [M L^-1], rho Ip, Iy, Iz, Iyz [M L], rho Iw [M L^3]
+    type(place_t) :: place
+  end type member_t
+
+  !> A point fixed to a section: marker or place of a load.
+  type :: marker_t
+    character(len=name_length) :: name = ""
+    integer :: node = 0
+    integer :: member = 0             !< element whose section it is fixed to; 0: at the node itself
+    real(wp) :: offset(2) = 0.0_wp    !< y, z from the centroid in principal axes [L]
+    real(wp) :: omega = 0.0_wp        !< sectorial coordinate there [L^2]
+    logical :: omega_known = .false.
+    type(place_t) :: place
+  end type marker_t
+
+  !> Dead load at a node or at a point of a section.
+  type :: load_t
+    integer :: node = 0
+    real(wp) :: force(3) = 0.0_wp     !< [F]
+    real(wp) :: moment(3) = 0.0_wp    !< [F L]
+    real(wp) :: bimoment = 0.0_wp     !< conjugate to the warping coordinate [F L^2]
+    integer :: marker = 0             !< index in `model%point` of the load's point; 0: the node itself
+    integer :: function = 0           !< index; 0: the load factor itself
+    type(place_t) :: place
+  end type load_t
+
+  !> The loads given between two analyses; ramped together.
+  type :: pattern_t
+    type(load_t), allocatable :: load(:)
+    integer :: loads = 0                  !< how many of `load` are in use
+    real(wp) :: gravity(3) = 0.0_wp       !< acceleration [L T^-2]
+  end type pattern_t
+
+  !> A named function of the load factor.
+  type :: function_t
+    character(len=name_length) :: name = ""
+    integer :: kind = 0                      !< one of `function_*`
+    real(wp) :: parameter(3) = 0.0_wp        !< RAMP s0 s1; SINE amplitude cycles phase; STEP s0
+    real(wp), allocatable :: table(:, :)     !< 2 x n: abscissas and values
+    type(formula_t) :: formula
+    type(place_t) :: place
+  end type function_t
+
+  !> One analysis, in the order of the deck.
+  type :: analysis_t
+    integer :: kind = analysis_static
+    character(len=name_length) :: name = ""   !< NAME; empty: the default group name
+    integer :: pattern = 0                    !< the pattern it ramps; 0: none
+    integer :: steps = 10                     !< equal steps to record
+    real(wp) :: factor = 1.0_wp               !< TO: load factor at the end
+    real(wp) :: tolerance = 0.0_wp            !< TOL; 0: the default of the analysis
+    integer :: iterations = 0                 !< MAXITER; 0: the default
+    type(place_t) :: place
+  end type analysis_t
+
+  !> A name defined by SET or -D, as text.
+  type :: setting_t
+    character(len=name_length) :: name = ""
+    character(len=:), allocatable :: value
+  end type setting_t
+
+  !> Everything the deck says.
+  type :: model_t
+    character(len=:), allocatable :: title
+    type(node_t), allocatable :: node(:)
+    type(material_t), allocatable :: material(:)
+    type(section_t), allocatable :: section(:)
+    type(member_t), allocatable :: member(:)
+    type(marker_t), allocatable :: marker(:)   !< those with a name, of MARKER cards
+    type(marker_t), allocatable :: point(:)    !< places of loads given with AT
+    type(function_t), allocatable :: function(:)
+    type(pattern_t), allocatable :: pattern(:)
+    type(analysis_t), allocatable :: analysis(:)
+    type(setting_t), allocatable :: setting(:)
+    character(len=:), allocatable :: deck      !< the text as read, includes expanded
+  end type model_t
+
+end module model_data
