@@ -54,6 +54,7 @@ module diagnostics
     procedure :: sort
     procedure :: print
     procedure :: heading
+    procedure :: location
   end type report_t
 
 contains
@@ -244,6 +245,15 @@ contains
     if (item%severity == severity_note) phrase = phrase//"note: "
     phrase = phrase//item%message
   end function heading
+
+  !> "frame.deck:12", to point at an earlier card in a hint.
+  function location(self, place) result(phrase)
+    class(report_t), intent(in) :: self
+    type(place_t), intent(in) :: place
+    character(len=:), allocatable :: phrase
+
+    phrase = self%file(place%file)%name//":"//to_text(place%line)
+  end function location
 
   !> The line of a place, or a window of it, with carets below the word.
   subroutine print_line(report, place, unit)

@@ -14,6 +14,7 @@ module element_base
     integer :: coordinates = 0               !< number of coordinates they depend on
     integer, allocatable :: coordinate(:)    !< their numbers, see `nodal_state`
     logical, allocatable :: fixed(:)         !< by strain: held at zero, its stress is a multiplier
+    real(wp) :: size = 0.0_wp                !< its length, for estimates of round-off [L]
     integer :: section_node(2) = 0           !< rotational nodes of its end sections; 0: it has none
     real(wp) :: triad(3, 3) = 0.0_wp         !< initial axes eX eY eZ of the sections
   contains

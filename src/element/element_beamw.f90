@@ -47,6 +47,7 @@ contains
     new%node = node
     new%chord = chord
     new%length = norm2(chord)
+    new%size = new%length
     new%triad = triad
     new%section_node = node(2, :)
     new%release = release

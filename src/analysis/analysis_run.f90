@@ -1,0 +1,115 @@
+!> Run the analyses of a model, in their order.
+module analysis_run
+  use kinds, only: wp
+  use errors, only: error_t, fail, exit_deck
+  use model_data, only: model_t
+  use linalg_solver, only: solver_t
+  use system_data, only: system_t
+  use system_build, only: build_system, find_system_pattern
+  use system_assembly, only: iterate_t, new_iterate, assemble
+  use system_constraints, only: drop_redundant, free_motions
+  use system_names, only: coordinate_name, strain_name
+  use analysis_static, only: run_static
+  use recorder, only: recorder_t
+  implicit none
+  private
+
+  public :: run_analyses
+
+contains
+
+  !> Build the system, check that it can stand, run all analyses.
+  subroutine run_analyses(model, recorder, error)
+    type(model_t), intent(in) :: model
+    class(recorder_t), intent(inout) :: recorder
+    type(error_t), allocatable, intent(out) :: error
+    type(system_t) :: system
+    type(solver_t) :: solver
+    type(iterate_t) :: iterate
+
+    call build_system(model, system)
+    call warn_of_redundant(model, system, recorder, error)
+    if (.not. allocated(error)) then
+      call find_system_pattern(system)
+      call new_iterate(system, iterate)
+      call solver%prepare(system%equations(), system%pattern%row, system%pattern%column, &
+                          system%pattern%symmetric, error)
+    end if
+    if (.not. allocated(error)) call refuse_free_motion(model, system, solver, iterate, error)
+    if (.not. allocated(error)) call run_in_order(model, system, solver, iterate, recorder, error)
+    call solver%free()
+    call system%free()
+  end subroutine run_analyses
+
+  subroutine run_in_order(model, system, solver, iterate, recorder, error)
+    type(model_t), intent(in) :: model
+    type(system_t), intent(in) :: system
+    type(solver_t), intent(inout) :: solver
+    type(iterate_t), intent(inout) :: iterate
+    class(recorder_t), intent(inout) :: recorder
+    type(error_t), allocatable, intent(out) :: error
+    type(error_t), allocatable :: second
+    real(wp) :: level(size(model%pattern))
+    integer :: i
+
+    level = 0
+    do i = 1, size(model%analysis)
+      call recorder%begin(i, model%analysis(i), error)
+      if (allocated(error)) return
+      call run_static(model, system, solver, model%analysis(i), level, iterate, recorder, error)
+      call recorder%finish(.not. allocated(error), second)
+      if (.not. allocated(error) .and. allocated(second)) call move_alloc(second, error)
+      if (allocated(error)) return
+    end do
+  end subroutine run_in_order
+
+  !> Redundant constraints that agree are left out, with a warning for each.
+  subroutine warn_of_redundant(model, system, recorder, error)
+    type(model_t), intent(in) :: model
+    type(system_t), intent(inout) :: system
+    class(recorder_t), intent(inout) :: recorder
+    type(error_t), allocatable, intent(out) :: error
+    integer, allocatable :: dropped(:)
+    integer :: i
+
+    call drop_redundant(system, dropped, error)
+    if (allocated(error)) return
+    do i = 1, size(dropped)
+      call recorder%remark("warning: "//strain_name(model, system, dropped(i))// &
+                           " is fixed, but other constraints already see to that;"// &
+                           " the model is overconstrained")
+    end do
+  end subroutine warn_of_redundant
+
+  !> A structure must resist every motion: free ones are named by node and coordinate.
+  subroutine refuse_free_motion(model, system, solver, iterate, error)
+    type(model_t), intent(in) :: model
+    type(system_t), intent(in) :: system
+    type(solver_t), intent(inout) :: solver
+    type(iterate_t), intent(inout) :: iterate
+    type(error_t), allocatable, intent(out) :: error
+    integer, allocatable :: free(:)
+    character(len=:), allocatable :: list
+    real(wp) :: level(size(model%pattern))
+    integer :: i
+
+    if (system%unknowns == 0) then
+      call fail(error, exit_deck, "nothing can move: every coordinate is fixed")
+      return
+    end if
+    level = 0
+    call assemble(system, level, iterate)
+    call solver%factorize(iterate%values, error)
+    if (allocated(error)) return
+    if (size(solver%null_pivots()) == 0) return
+    call free_motions(system, iterate, solver, free, error)
+    if (allocated(error) .or. size(free) == 0) return
+    list = coordinate_name(model, free(1))
+    do i = 2, size(free)
+      list = list//", "//coordinate_name(model, free(i))
+    end do
+    call fail(error, exit_deck, "the model can move freely: "//list// &
+              "; FIX it or connect it, STATIC needs a structure")
+  end subroutine refuse_free_motion
+
+end module analysis_run

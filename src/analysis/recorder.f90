@@ -1,0 +1,94 @@
+!> Who listens to an analysis: writes results, prints progress, knows of interruptions.
+!> Analyses know only this; files and terminals are behind it.
+module recorder
+  use kinds, only: wp
+  use errors, only: error_t
+  use model_data, only: analysis_t
+  use system_results, only: results_t
+  implicit none
+  private
+
+  !> One Newton iteration.
+  type, public :: iteration_t
+    integer :: step = 0               !< recorded step it works for, from 1
+    integer :: iteration = 0          !< within its increment of the load
+    real(wp) :: factor = 0.0_wp       !< load factor aimed at
+    real(wp) :: increment = 0.0_wp    !< largest change, relative to the motion so far
+    real(wp) :: residual = 0.0_wp     !< largest unbalanced force, relative to the forces
+    real(wp) :: constraint = 0.0_wp   !< largest fixed strain, relative to the model's length
+  end type iteration_t
+
+  !> One recorded step.
+  type, public :: step_t
+    integer :: step = 0               !< 0: the state the analysis starts from
+    real(wp) :: factor = 0.0_wp       !< load factor
+    integer :: iterations = 0         !< spent on it, cut-backs included
+    integer :: cutbacks = 0
+    type(iteration_t) :: last         !< the converged iteration
+  end type step_t
+
+  type, abstract, public :: recorder_t
+  contains
+    procedure(begin_interface), deferred :: begin
+    procedure(iteration_interface), deferred :: iteration
+    procedure(remark_interface), deferred :: remark
+    procedure(step_interface), deferred :: step
+    procedure(finish_interface), deferred :: finish
+    procedure(interrupted_interface), deferred :: interrupted
+  end type recorder_t
+
+  abstract interface
+    !> Analysis number `number` of the run starts.
+    subroutine begin_interface(self, number, analysis, error)
+      import :: recorder_t, analysis_t, error_t
+      implicit none
+      class(recorder_t), intent(inout) :: self
+      integer, intent(in) :: number
+      type(analysis_t), intent(in) :: analysis
+      type(error_t), allocatable, intent(out) :: error
+    end subroutine begin_interface
+
+    !> A Newton iteration was made.
+    subroutine iteration_interface(self, iteration)
+      import :: recorder_t, iteration_t
+      implicit none
+      class(recorder_t), intent(inout) :: self
+      type(iteration_t), intent(in) :: iteration
+    end subroutine iteration_interface
+
+    !> Something worth a line: a cut-back, for instance.
+    subroutine remark_interface(self, text)
+      import :: recorder_t
+      implicit none
+      class(recorder_t), intent(inout) :: self
+      character(len=*), intent(in) :: text
+    end subroutine remark_interface
+
+    !> A step has converged: keep it.
+    subroutine step_interface(self, step, results, error)
+      import :: recorder_t, step_t, results_t, error_t
+      implicit none
+      class(recorder_t), intent(inout) :: self
+      type(step_t), intent(in) :: step
+      type(results_t), intent(in) :: results
+      type(error_t), allocatable, intent(out) :: error
+    end subroutine step_interface
+
+    !> The analysis that began last has ended, `complete` or not.
+    subroutine finish_interface(self, complete, error)
+      import :: recorder_t, error_t
+      implicit none
+      class(recorder_t), intent(inout) :: self
+      logical, intent(in) :: complete
+      type(error_t), allocatable, intent(out) :: error
+    end subroutine finish_interface
+
+    !> Whether the user wants the run to stop.
+    logical function interrupted_interface(self)
+      import :: recorder_t
+      implicit none
+      class(recorder_t), intent(inout) :: self
+    end function interrupted_interface
+  end interface
+
+end module recorder

@@ -1,0 +1,140 @@
+!> A deck being read: what its cards said, not yet brought together.
+!>
+!> Cards may refer to what stands further down, so lists and loads are kept as written until the end.
+module deck_draft
+  use kinds, only: wp
+  use errors, only: error_t
+  use lookup_tables, only: id_table_t
+  use diagnostics, only: place_t, report_t
+  use model_data, only: model_t, setting_t, second_consistent, mass_consistent
+  use deck_registry, only: registry_t
+  use deck_settings, only: settings_t
+  use deck_expression, only: scope_t
+  implicit none
+  private
+
+  public :: draft_t, selection_t, item_t, record_t, beam_t, group_t, iteration_t, new_draft
+
+  integer, parameter, public :: select_all = 1, select_name = 2, select_range = 3
+
+  !> One word of a list: ALL, a name, or first:last:step of ids or of the parts of one id.
+  type :: selection_t
+    integer :: kind = select_range
+    integer :: name = 0                     !< number of the group or marker
+    integer :: id = 0                       !< of parts: their element
+    integer :: first = 0, last = 0, step = 1
+    type(place_t) :: place
+  end type selection_t
+
+  !> A component or mode with its place.
+  type :: item_t
+    integer :: value = 0
+    type(place_t) :: place
+  end type item_t
+
+  integer, parameter, public :: record_fix = 1, record_flexible = 2, record_release = 3, &
+    record_stiffness = 4, record_inertia = 5, record_load = 6, record_marker = 7
+
+  !> A card about nodes or elements of a list.
+  type :: record_t
+    integer :: kind = 0
+    type(place_t) :: place
+    integer :: from = 1, to = 0             !< its lists in `selection`
+    integer :: item_from = 1, item_to = 0   !< its components or modes in `item`
+    integer :: values = 0
+    real(wp) :: value(7) = 0.0_wp
+    integer :: function = 0                 !< number of its function
+    logical :: at_offset = .false., at_point = .false.
+    real(wp) :: offset(2) = 0.0_wp
+    integer :: point = 0
+    type(place_t) :: at_place
+    logical :: of_given = .false.
+    integer :: of_id = 0, of_part = 0
+    type(place_t) :: of_place
+    integer :: marker = 0                   !< number of the marker it makes
+    integer :: block = 1                    !< which stretch between analyses it stands in
+    logical :: additional = .false.         !< DELXF
+  end type record_t
+
+  !> A BEAMW card.
+  type :: beam_t
+    integer :: id = 0
+    integer :: node(3, 2) = 0               !< numbers of its nodes by kind and end; 0: broken card
+    real(wp) :: orientation(3) = 0.0_wp
+    integer :: section = 0, material = 0
+    integer :: second = second_consistent, mass = mass_consistent
+    logical :: shear = .true., shear_asked = .false., rotary = .true., rigid = .false.
+    integer :: divide = 1
+    integer :: first_member = 0
+    type(place_t) :: place
+  end type beam_t
+
+  type :: group_t
+    integer :: from = 1, to = 0             !< its lists in `selection`
+    logical :: of_nodes = .true.
+    logical :: open = .false.               !< being resolved, to find cycles
+  end type group_t
+
+  !> SPACAR's ITERSTEP.
+  type :: iteration_t
+    integer :: iterations = 0, additional_steps = 10, base_steps = 10
+    real(wp) :: tolerance = 0.0_wp
+    type(place_t) :: place
+  end type iteration_t
+
+  type :: draft_t
+    type(report_t) :: report
+    type(model_t) :: model
+    type(settings_t) :: settings
+    type(setting_t), allocatable :: override(:)       !< of -D
+    logical, allocatable :: override_used(:)
+    type(scope_t) :: scope                            !< what `i` means on the present card
+    type(registry_t) :: materials, sections, functions, labels
+    type(group_t), allocatable :: group(:)            !< by label; of markers: empty
+    integer, allocatable :: marker_of(:)              !< by label: index in model%marker, or 0
+    type(id_table_t) :: node_ids, beam_ids
+    logical, allocatable :: node_broken(:)            !< its NODE card had errors
+    logical :: nodes_incomplete = .false.             !< some NODE card has no readable id
+    logical :: elements_incomplete = .false.          !< some element card had errors
+    type(beam_t), allocatable :: beam(:)
+    integer :: beams = 0
+    type(selection_t), allocatable :: selection(:)
+    integer :: selections = 0
+    type(item_t), allocatable :: item(:)
+    integer :: items = 0
+    type(record_t), allocatable :: record(:)
+    integer :: records = 0
+    integer :: nodes = 0, members = 0, markers = 0, points = 0, analyses = 0
+    integer :: block = 1                              !< number of the stretch between analyses
+    integer, allocatable :: analysis_steps(:)         !< STEPS of each analysis; 0: not given
+    type(iteration_t) :: iteration
+    character(len=:), allocatable :: include_path     !< set by an INCLUDE card
+    type(place_t) :: include_place
+    logical :: finished = .false.                     !< VISUALIZATION was read
+    type(error_t), allocatable :: failure
+  end type draft_t
+
+contains
+
+  subroutine new_draft(overrides, draft)
+    type(setting_t), intent(in) :: overrides(:)
+    type(draft_t), intent(out) :: draft
+
+    draft%override = overrides
+    allocate (draft%override_used(size(overrides)))
+    draft%override_used = .false.
+    draft%materials%noun = "MATERIAL"
+    draft%sections%noun = "SECTION"
+    draft%functions%noun = "FUNCTION"
+    draft%labels%noun = "GROUP or MARKER"
+    draft%model%title = ""
+    allocate (draft%model%node(64), draft%node_broken(64), draft%beam(64))
+    allocate (draft%model%material(8), draft%model%section(8), draft%model%function(8))
+    allocate (draft%model%marker(8), draft%model%point(8), draft%model%analysis(4))
+    allocate (draft%selection(64), draft%item(64), draft%record(64))
+    allocate (draft%group(8), draft%marker_of(8), draft%analysis_steps(4))
+    draft%marker_of = 0
+    draft%node_broken = .false.
+  end subroutine new_draft
+
+end module deck_draft

@@ -1,0 +1,210 @@
+!> Cards about elements: BEAMW, DYNE, RLSE, ESTIFF, EM.
+module deck_element_cards
+  use text, only: to_text
+  use diagnostics, only: place_t
+  use model_data, only: second_none, second_jonker, second_consistent, mass_none, mass_lumped, &
+                        mass_consistent, translational, warping
+  use deck_card, only: card_t
+  use deck_draft, only: draft_t, beam_t, record_t, record_flexible, record_release, &
+                        record_stiffness, record_inertia
+  use deck_growth, only: grow
+  use deck_values, only: read_word
+  use deck_model_cards, only: node_number, add_selection
+  implicit none
+  private
+
+  public :: read_beamw, read_dyne, read_rlse, read_estiff, read_em
+  public :: beam_number, add_record, add_item
+
+contains
+
+  !> BEAMW id p q [ox oy oz] [options] or BEAMW id Xp Rp Wp Xq Rq Wq [ox oy oz] [options]
+  subroutine read_beamw(card, draft)
+    type(card_t), intent(in) :: card
+    type(draft_t), intent(inout) :: draft
+    type(beam_t) :: beam
+    integer :: k, last_node, kind, w
+
+    call beam_number(draft, card%whole(2), card%place(2), k)
+    if (k == 0) return
+    beam%id = card%whole(2)
+    beam%place = card%place(2)
+    last_node = merge(4, 8, card%positional <= 6)
+    do w = 3, last_node
+      if (last_node == 8) then
+        kind = 1 + modulo(w - 3, 3)
+        call node_number(draft, card%whole(w), card%part(w), card%place(w), &
+                         beam%node(kind, 1 + (w - 3)/3))
+      else
+        call node_number(draft, card%whole(w), card%part(w), card%place(w), beam%node(1, w - 2))
+        beam%node(:, w - 2) = beam%node(1, w - 2)
+      end if
+    end do
+    do kind = translational, warping
+      if (beam%node(kind, 1) /= beam%node(kind, 2)) cycle
+      w = merge(4, 5 + kind, last_node == 4)
+      call draft%report%add_error(card%place(w), "both ends of the element are at node "// &
+                                  to_text(card%whole(w)))
+      return
+    end do
+    if (card%positional > last_node - 1) beam%orientation = card%number(last_node + 1:last_node + 3)
+    if (card%positional > last_node - 1 .and. .not. any(abs(beam%orientation) > 0)) then
+      call draft%report%add_error(card%place(last_node + 1), "the orientation cannot be 0 0 0")
+      return
+    end if
+    call read_options(card, draft, beam)
+    draft%beam(k) = beam
+  end subroutine read_beamw
+
+  !> SECTION MATERIAL SECOND SHEAR MASS ROTARY DIVIDE RIGID, in the order of the table.
+  subroutine read_options(card, draft, beam)
+    type(card_t), intent(in) :: card
+    type(draft_t), intent(inout) :: draft
+    type(beam_t), intent(inout) :: beam
+    integer, parameter :: second(0:2) = [second_consistent, second_jonker, second_none]
+    integer, parameter :: mass(0:2) = [mass_consistent, mass_lumped, mass_none]
+    character(len=:), allocatable :: name
+
+    associate (option => card%option, choice => card%whole)
+      if (option(1) > 0) then
+        call read_word(card, option(1) + 1, draft, name)
+        call draft%sections%refer(name, card%place(option(1) + 1), beam%section)
+      end if
+      if (option(2) > 0) then
+        call read_word(card, option(2) + 1, draft, name)
+        call draft%materials%refer(name, card%place(option(2) + 1), beam%material)
+      end if
+      if (option(3) > 0) beam%second = second(choice(option(3) + 1) - 1)
+      if (option(4) > 0) beam%shear = choice(option(4) + 1) == 1
+      beam%shear_asked = beam%shear .and. option(4) > 0
+      if (option(5) > 0) beam%mass = mass(choice(option(5) + 1) - 1)
+      if (option(6) > 0) beam%rotary = choice(option(6) + 1) == 1
+      if (option(7) > 0) beam%divide = choice(option(7) + 1)
+      beam%rigid = option(8) > 0
+    end associate
+    if (beam%divide >= 1 .and. beam%divide <= 1000000) return
+    call draft%report%add_error(card%place(card%option(7) + 1), &
+                                "an element is divided into 1 to 1000000 parts")
+    beam%divide = 1
+  end subroutine read_options
+
+  !> Number of a new element; 0 and an error if the id is taken.
+  subroutine beam_number(draft, id, place, number)
+    type(draft_t), intent(inout) :: draft
+    integer, intent(in) :: id
+    type(place_t), intent(in) :: place
+    integer, intent(out) :: number
+
+    call draft%beam_ids%add(id, 0, number)
+    if (number > draft%beams) then
+      draft%beams = number
+      call grow(draft%beam, number)
+      draft%beam(number)%id = id
+      draft%beam(number)%place = place
+    else
+      call draft%report%add_error(place, "element "//to_text(id)//" is already defined", &
+                                  "first at "//draft%report%location(draft%beam(number)%place))
+      number = 0
+    end if
+  end subroutine beam_number
+
+  !> DYNE elements modes
+  subroutine read_dyne(card, draft)
+    type(card_t), intent(in) :: card
+    type(draft_t), intent(inout) :: draft
+
+    call add_modes(card, draft, record_flexible)
+  end subroutine read_dyne
+
+  !> RLSE elements modes
+  subroutine read_rlse(card, draft)
+    type(card_t), intent(in) :: card
+    type(draft_t), intent(inout) :: draft
+
+    call add_modes(card, draft, record_release)
+  end subroutine read_rlse
+
+  subroutine add_modes(card, draft, kind)
+    type(card_t), intent(in) :: card
+    type(draft_t), intent(inout) :: draft
+    integer, intent(in) :: kind
+    type(record_t) :: record
+    integer :: w
+
+    record%kind = kind
+    record%item_from = draft%items + 1
+    do w = 3, card%words
+      call add_item(card, w, draft)
+    end do
+    record%item_to = draft%items
+    call add_record(card, 2, draft, record)
+  end subroutine add_modes
+
+  !> Keep a mode or component of a card.
+  subroutine add_item(card, w, draft)
+    type(card_t), intent(in) :: card
+    integer, intent(in) :: w
+    type(draft_t), intent(inout) :: draft
+
+    draft%items = draft%items + 1
+    call grow(draft%item, draft%items)
+    draft%item(draft%items)%value = card%whole(w)
+    draft%item(draft%items)%place = card%place(w)
+  end subroutine add_item
+
+  !> ESTIFF elements EA GIt EIy EIz cy cz EIw
+  subroutine read_estiff(card, draft)
+    type(card_t), intent(in) :: card
+    type(draft_t), intent(inout) :: draft
+
+    call add_values(card, draft, record_stiffness)
+  end subroutine read_estiff
+
+  !> EM elements rhoA rhoIp rhoIy rhoIz rhoIyz rhoIw
+  subroutine read_em(card, draft)
+    type(card_t), intent(in) :: card
+    type(draft_t), intent(inout) :: draft
+
+    call add_values(card, draft, record_inertia)
+  end subroutine read_em
+
+  subroutine add_values(card, draft, kind)
+    type(card_t), intent(in) :: card
+    type(draft_t), intent(inout) :: draft
+    integer, intent(in) :: kind
+    type(record_t) :: record
+    integer :: i
+
+    record%kind = kind
+    record%values = card%positional - 1
+    do i = 1, record%values
+      record%value(i) = card%number(2 + i)
+      if (record%value(i) >= 0 .or. (kind == record_inertia .and. i == 5)) cycle
+      call draft%report%add_error(card%place(2 + i), "a stiffness or mass cannot be negative")
+      return
+    end do
+    call add_record(card, 2, draft, record)
+  end subroutine add_values
+
+  !> Keep a card about the nodes or elements of its list, word `w`.
+  subroutine add_record(card, w, draft, record)
+    type(card_t), intent(in) :: card
+    integer, intent(in) :: w
+    type(draft_t), intent(inout) :: draft
+    type(record_t), intent(in) :: record
+    logical :: ok
+
+    ok = .true.
+    draft%records = draft%records + 1
+    call grow(draft%record, draft%records)
+    draft%record(draft%records) = record
+    associate (kept => draft%record(draft%records))
+      kept%place = card%place(1)
+      kept%block = draft%block
+      kept%from = draft%selections + 1
+      call add_selection(card, w, draft, ok)
+      kept%to = draft%selections
+    end associate
+  end subroutine add_record
+
+end module deck_element_cards

@@ -1,0 +1,239 @@
+!> One pass over the elements: matrix, internal forces, strains and estimates of their round-off.
+!>
+!> Newton in mixed form (theory 8): the geometric stiffness takes the stress resultants that are
+!> iterated beside the coordinates, the forces those of the strains.
+module system_assembly
+  use kinds, only: wp
+  use nodal_state, only: state_t, new_state, coordinate_number, node_coordinates
+  use element_base, only: element_t
+  use system_data, only: system_t, pattern_t
+  use system_loads, only: add_loads
+  implicit none
+  private
+
+  public :: iterate_t, new_iterate, assemble, right_hand_side, advance
+
+  !> Where the iteration stands; what `assemble` leaves is about `state` as it was then.
+  type :: iterate_t
+    type(state_t) :: state
+    real(wp), allocatable :: stress(:)      !< iterated stress resultants and multipliers, by strain
+    real(wp), allocatable :: strain(:)      !< by strain, of the last assembly [L]
+    real(wp), allocatable :: elastic(:)     !< law times strain, zero for fixed strains
+    real(wp), allocatable :: jacobian(:)    !< of all elements, one behind the other
+    real(wp), allocatable :: internal(:)    !< by coordinate: forces of the strains' stresses
+    real(wp), allocatable :: constraint(:)  !< by coordinate: forces of the multipliers
+    real(wp), allocatable :: external(:)    !< by coordinate: loads
+    real(wp), allocatable :: noise(:)       !< by coordinate: round-off to expect in the forces
+    real(wp), allocatable :: values(:)      !< entries of the matrix
+    integer :: invalid = 0                  !< an element rotated beyond its range; 0: none
+  end type iterate_t
+
+contains
+
+  !> The undeformed state, without stress.
+  pure subroutine new_iterate(system, iterate)
+    type(system_t), intent(in) :: system
+    type(iterate_t), intent(out) :: iterate
+    integer :: strains
+
+    call new_state(system%nodes, system%coordinates - node_coordinates*system%nodes, iterate%state)
+    strains = size(system%multiplier)
+    allocate (iterate%stress(strains), iterate%strain(strains), iterate%elastic(strains))
+    allocate (iterate%jacobian(system%jacobian(size(system%jacobian))))
+    allocate (iterate%internal(system%coordinates))
+    allocate (iterate%constraint(system%coordinates), iterate%external(system%coordinates))
+    allocate (iterate%noise(system%coordinates), iterate%values(size(system%pattern%row)))
+    iterate%stress = 0
+    iterate%strain = 0
+    iterate%elastic = 0
+  end subroutine new_iterate
+
+  !> Evaluate all elements and loads at the present state with the patterns at `level`.
+  pure subroutine assemble(system, level, iterate)
+    type(system_t), intent(in) :: system
+    real(wp), intent(in) :: level(:)
+    type(iterate_t), intent(inout) :: iterate
+    integer :: e
+
+    iterate%internal = 0
+    iterate%constraint = 0
+    iterate%external = 0
+    iterate%noise = 0
+    iterate%values = 0
+    iterate%invalid = 0
+    do e = 1, size(system%element)
+      associate (jacobian => iterate%jacobian(system%jacobian(e) + 1:system%jacobian(e + 1)))
+        call assemble_element(system, e, system%element(e)%e, jacobian, iterate)
+      end associate
+      if (iterate%invalid > 0) return
+    end do
+    call add_loads(system, iterate%state, level, iterate%external, iterate%values)
+  end subroutine assemble
+
+  pure subroutine assemble_element(system, e, element, jacobian, iterate)
+    type(system_t), intent(in) :: system
+    integer, intent(in) :: e
+    class(element_t), intent(in) :: element
+    real(wp), intent(out) :: jacobian(element%strains, element%coordinates)
+    type(iterate_t), intent(inout) :: iterate
+    real(wp) :: law(element%strains, element%strains)
+    real(wp) :: tangent(element%coordinates, element%coordinates)
+    real(wp), dimension(element%strains, element%coordinates) :: stress_rate
+    real(wp) :: strain(element%strains), elastic(element%strains), size_of(element%coordinates)
+    integer :: first, last, i, j
+    logical :: valid
+
+    first = system%first(e) + 1
+    last = system%first(e + 1)
+    call element%evaluate(iterate%state, iterate%stress(first:last), strain, jacobian, tangent, valid)
+    if (.not. valid) then
+      iterate%invalid = e
+      return
+    end if
+    call element%law(law)
+    elastic = matmul(law, strain)
+    stress_rate = matmul(law, jacobian)
+    do j = 1, element%coordinates
+      do i = 1, element%coordinates
+        tangent(i, j) = tangent(i, j) + dot_product(jacobian(:, i), stress_rate(:, j))
+      end do
+    end do
+    iterate%strain(first:last) = strain
+    iterate%elastic(first:last) = elastic
+    call coordinate_sizes(element, iterate%state, size_of)
+    associate (at => element%coordinate)
+      do j = 1, element%coordinates
+        iterate%internal(at(j)) = iterate%internal(at(j)) + dot_product(elastic, jacobian(:, j))
+        iterate%noise(at(j)) = iterate%noise(at(j)) + dot_product(abs(tangent(:, j)), size_of)
+      end do
+      do i = 1, element%strains
+        if (system%multiplier(first + i - 1) == 0) cycle
+        iterate%constraint(at) = iterate%constraint(at) + iterate%stress(first + i - 1)*jacobian(i, :)
+      end do
+    end associate
+    call scatter(system, e, element, tangent, jacobian, iterate%values)
+  end subroutine assemble_element
+
+  !> What round-off in a coordinate is relative to: displacements and the element's size, one
+  !> radian, alpha.
+  pure subroutine coordinate_sizes(element, state, size_of)
+    class(element_t), intent(in) :: element
+    type(state_t), intent(in) :: state
+    real(wp), intent(out) :: size_of(element%coordinates)
+    integer :: i, node, component
+
+    do i = 1, element%coordinates
+      node = (element%coordinate(i) - 1)/node_coordinates + 1
+      component = element%coordinate(i) - node_coordinates*(node - 1)
+      size_of(i) = 1
+      if (node > size(state%warping)) then
+        size_of(i) = element%size
+      else if (component <= 3) then
+        size_of(i) = element%size + abs(state%displacement(component, node))
+      else if (component == 7) then
+        size_of(i) = abs(state%warping(node))
+      end if
+    end do
+    size_of = epsilon(1.0_wp)*size_of
+  end subroutine coordinate_sizes
+
+  !> Add an element's tangent and constraint rows to the entries.
+  pure subroutine scatter(system, e, element, tangent, jacobian, values)
+    type(system_t), intent(in) :: system
+    integer, intent(in) :: e
+    class(element_t), intent(in) :: element
+    real(wp), intent(in) :: tangent(element%coordinates, element%coordinates)
+    real(wp), intent(in) :: jacobian(element%strains, element%coordinates)
+    real(wp), intent(inout) :: values(:)
+    integer :: i, j, k, n, rows, width
+
+    n = element%coordinates
+    associate (place => system%pattern%place, multiplier => system%multiplier)
+      rows = count(multiplier(system%first(e) + 1:system%first(e + 1)) > 0)
+      width = n + rows
+      do j = 1, n
+        k = system%pattern%first(e) + (j - 1)*width - 1
+        do i = 1, n
+          if (place(k + i) > 0) values(place(k + i)) = values(place(k + i)) + tangent(i, j)
+        end do
+      end do
+      if (rows == 0) return
+      rows = n
+      do i = 1, element%strains
+        if (multiplier(system%first(e) + i) == 0) cycle
+        rows = rows + 1
+        do j = 1, n
+          k = system%pattern%first(e) + (j - 1)*width + rows - 1
+          if (place(k) > 0) values(place(k)) = values(place(k)) + jacobian(i, j)
+          k = system%pattern%first(e) + (rows - 1)*width + j - 1
+          if (place(k) > 0) values(place(k)) = values(place(k)) + jacobian(i, j)
+        end do
+      end do
+    end associate
+  end subroutine scatter
+
+  !> Right-hand side of the mixed Newton step: loads minus forces of the strains; minus the fixed
+  !> strains. Its solution is the increment and the new multipliers.
+  pure function right_hand_side(system, iterate) result(b)
+    type(system_t), intent(in) :: system
+    type(iterate_t), intent(in) :: iterate
+    real(wp) :: b(system%equations())
+    integer :: k
+
+    do k = 1, system%coordinates
+      if (system%unknown(k) > 0) b(system%unknown(k)) = iterate%external(k) - iterate%internal(k)
+    end do
+    do k = 1, size(system%multiplier)
+      if (system%multiplier(k) > 0) b(system%multiplier(k)) = -iterate%strain(k)
+    end do
+  end function right_hand_side
+
+  !> Take a step: move the state by `share` of the solution, extrapolate the stresses.
+  pure subroutine advance(system, solution, share, iterate, increment)
+    type(system_t), intent(in) :: system
+    real(wp), intent(in) :: solution(:), share
+    type(iterate_t), intent(inout) :: iterate
+    real(wp), intent(out) :: increment(:)  !< by coordinate
+    integer :: e, k
+
+    do k = 1, system%coordinates
+      increment(k) = 0
+      if (system%unknown(k) > 0) increment(k) = share*solution(system%unknown(k))
+    end do
+    do e = 1, size(system%element)
+      associate (jacobian => iterate%jacobian(system%jacobian(e) + 1:system%jacobian(e + 1)))
+        call extrapolate(system, e, system%element(e)%e, jacobian, solution, share, increment, iterate)
+      end associate
+    end do
+    call iterate%state%move(increment)
+  end subroutine advance
+
+  !> sigma <- S (strain + D du), with strain and D before the step; multipliers from the solution.
+  pure subroutine extrapolate(system, e, element, jacobian, solution, share, increment, iterate)
+    type(system_t), intent(in) :: system
+    integer, intent(in) :: e
+    class(element_t), intent(in) :: element
+    real(wp), intent(in) :: jacobian(element%strains, element%coordinates), solution(:), share
+    real(wp), intent(in) :: increment(:)
+    type(iterate_t), intent(inout) :: iterate
+    real(wp) :: law(element%strains, element%strains), strain(element%strains)
+    real(wp) :: stress(element%strains)
+    integer :: first, last, i
+
+    first = system%first(e) + 1
+    last = system%first(e + 1)
+    call element%law(law)
+    strain = iterate%strain(first:last)
+    do i = 1, element%coordinates
+      strain = strain + jacobian(:, i)*increment(element%coordinate(i))
+    end do
+    stress = matmul(law, strain)
+    do i = 1, element%strains
+      associate (old => iterate%stress(first + i - 1), at => system%multiplier(first + i - 1))
+        if (at > 0) stress(i) = old + share*(solution(at) - old)
+      end associate
+    end do
+    iterate%stress(first:last) = stress
+  end subroutine extrapolate
+
+end module system_assembly

@@ -1,0 +1,94 @@
+!> The equations of a model as data: elements, unknowns, loads and the sparsity of their matrix.
+!>
+!> Coordinates are numbered as in `nodal_state`; each is held or has an unknown. Behind the unknowns
+!> of the coordinates stand those of the multipliers, one for each fixed strain that counts.
+module system_data
+  use kinds, only: wp
+  use nodal_state, only: state_t
+  use element_base, only: element_slot_t
+  use beamw_constants, only: beamw_t
+  use model_data, only: function_t
+  implicit none
+  private
+
+  public :: system_t, dead_load_t, constants_slot_t, pattern_t, unknown_name_t
+
+  !> A pointer that can live in an array.
+  type :: constants_slot_t
+    type(beamw_t), pointer :: constants => null()
+  end type constants_slot_t
+
+  !> A dead force at the end of an arm that turns with a node, R (arm + alpha warp), a dead moment
+  !> and a bimoment (theory 6).
+  type :: dead_load_t
+    integer :: pattern = 0
+    integer :: function = 0             !< index in `system%function`; 0: the load factor
+    integer :: node(3) = 0              !< translational, rotational, warping
+    real(wp) :: force(3) = 0.0_wp       !< [F]
+    real(wp) :: moment(3) = 0.0_wp      !< [F L]
+    real(wp) :: bimoment = 0.0_wp       !< [F L^2]
+    real(wp) :: arm(3) = 0.0_wp         !< initially, global axes [L]
+    real(wp) :: warp(3) = 0.0_wp        !< -omega eX of the section [L^2]
+  end type dead_load_t
+
+  !> Sparsity in coordinate form and, for each block (element or load), where its entries go.
+  type :: pattern_t
+    logical :: symmetric = .true.          !< lower triangle only
+    integer, allocatable :: row(:), column(:)
+    integer, allocatable :: first(:)       !< by block: start in `place`; one more at the end
+    integer, allocatable :: place(:)       !< entry of each pair of a block's unknowns; 0: none
+  end type pattern_t
+
+  !> What an unknown is, for messages.
+  type :: unknown_name_t
+    integer :: node = 0        !< index; 0: a multiplier or a released strain
+    integer :: component = 0   !< 1 to 7: X Y Z RX RY RZ W
+    integer :: element = 0     !< of a multiplier or release
+    integer :: strain = 0
+  end type unknown_name_t
+
+  type :: system_t
+    integer :: nodes = 0
+    integer :: coordinates = 0            !< 7 per node and the released strains
+    integer :: unknowns = 0               !< free coordinates
+    integer :: multipliers = 0            !< fixed strains that count
+    integer :: members = 0                !< the first elements are the model's members, in order
+    type(element_slot_t), allocatable :: element(:)
+    integer, allocatable :: unknown(:)    !< by coordinate: number of its unknown; 0: held
+    logical, allocatable :: used(:)       !< by coordinate: an element depends on it
+    integer, allocatable :: first(:)      !< by element: strains before its own; one more at the end
+    integer, allocatable :: jacobian(:)   !< by element: entries of Jacobians before its own
+    integer, allocatable :: multiplier(:) !< by strain of all elements: number of its unknown; 0: none
+    logical, allocatable :: dropped(:)    !< by strain: fixed, but follows from other constraints
+    type(dead_load_t), allocatable :: load(:)
+    type(function_t), allocatable :: function(:)
+    type(constants_slot_t), allocatable :: constants(:)
+    integer :: constants_used = 0
+    type(pattern_t) :: pattern
+    real(wp) :: length = 0.0_wp           !< size of the model, for criteria without units [L]
+  contains
+    procedure :: equations
+    procedure :: free
+  end type system_t
+
+contains
+
+  !> Number of unknowns with the multipliers.
+  pure integer function equations(self)
+    class(system_t), intent(in) :: self
+
+    equations = self%unknowns + self%multipliers
+  end function equations
+
+  !> Give back what the pointers hold.
+  subroutine free(self)
+    class(system_t), intent(inout) :: self
+    integer :: i
+
+    do i = 1, self%constants_used
+      deallocate (self%constants(i)%constants)
+    end do
+    self%constants_used = 0
+  end subroutine free
+
+end module system_data

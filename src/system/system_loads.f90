@@ -1,0 +1,94 @@
+!> Dead loads: forces on the coordinates and their derivatives (theory 6).
+module system_loads
+  use kinds, only: wp
+  use nodal_state, only: state_t, coordinate_number
+  use rotation, only: rotation_matrix, cross, skew, identity3
+  use model_functions, only: function_value
+  use system_data, only: system_t, dead_load_t, pattern_t
+  implicit none
+  private
+
+  public :: amplitudes, add_loads
+
+contains
+
+  !> Factor of every load when its pattern stands at `level`.
+  pure function amplitudes(system, level) result(factor)
+    type(system_t), intent(in) :: system
+    real(wp), intent(in) :: level(:)  !< load factor of each pattern
+    real(wp) :: factor(size(system%load))
+    integer :: i
+
+    do i = 1, size(system%load)
+      associate (load => system%load(i))
+        factor(i) = level(load%pattern)
+        if (load%function > 0) &
+          factor(i) = function_value(system%function(load%function), level(load%pattern))
+      end associate
+    end do
+  end function amplitudes
+
+  !> Add the forces of all loads to `external` (by coordinate) and their tangent to `values`.
+  pure subroutine add_loads(system, state, level, external, values)
+    type(system_t), intent(in) :: system
+    type(state_t), intent(in) :: state
+    real(wp), intent(in) :: level(:)
+    real(wp), intent(inout) :: external(:), values(:)
+    real(wp) :: force(7), tangent(4, 4), factor(size(system%load))
+    integer :: i, at(7)
+
+    factor = amplitudes(system, level)
+    do i = 1, size(system%load)
+      associate (load => system%load(i))
+        call dead_load(load, factor(i), state, force, tangent)
+        at = coordinate_number(load%node([1, 1, 1, 2, 2, 2, 3]), [1, 2, 3, 4, 5, 6, 7])
+        external(at) = external(at) + force
+        call scatter(system%pattern, size(system%element) + i, tangent, values)
+      end associate
+    end do
+  end subroutine add_loads
+
+  !> The kernel: forces on translation, rotation and alpha of the node, and the tangent on rotation
+  !> and alpha: of -F.R(arm + alpha warp), with -skew(T)/2 for a dead moment.
+  pure subroutine dead_load(load, factor, state, force, tangent)
+    type(dead_load_t), intent(in) :: load
+    real(wp), intent(in) :: factor
+    type(state_t), intent(in) :: state
+    real(wp), intent(out) :: force(7), tangent(4, 4)
+    real(wp) :: r(3, 3), o(3), w(3), f(3)
+    integer :: i
+
+    f = factor*load%force
+    r = rotation_matrix(state%euler(:, load%node(2)))
+    w = matmul(r, load%warp)
+    o = matmul(r, load%arm) + state%warping(load%node(3))*w
+    force(1:3) = f
+    force(4:6) = cross(o, f) + factor*load%moment
+    force(7) = dot_product(f, w) + factor*load%bimoment
+    tangent(1:3, 1:3) = dot_product(o, f)*identity3 - 0.5_wp*factor*skew(load%moment)
+    do i = 1, 3
+      tangent(1:3, i) = tangent(1:3, i) - 0.5_wp*(o*f(i) + f*o(i))
+    end do
+    tangent(1:3, 4) = -cross(w, f)
+    tangent(4, 1:3) = tangent(1:3, 4)
+    tangent(4, 4) = 0
+  end subroutine dead_load
+
+  !> Add the matrix of a block to the entries.
+  pure subroutine scatter(pattern, block, matrix, values)
+    type(pattern_t), intent(in) :: pattern
+    integer, intent(in) :: block
+    real(wp), intent(in) :: matrix(:, :)
+    real(wp), intent(inout) :: values(:)
+    integer :: i, j, k
+
+    k = pattern%first(block)
+    do j = 1, size(matrix, 2)
+      do i = 1, size(matrix, 1)
+        if (pattern%place(k) > 0) values(pattern%place(k)) = values(pattern%place(k)) + matrix(i, j)
+        k = k + 1
+      end do
+    end do
+  end subroutine scatter
+
+end module system_loads

@@ -1,0 +1,83 @@
+!> Names of coordinates and strains, for messages.
+module system_names
+  use text, only: to_text
+  use model_data, only: model_t
+  use nodal_state, only: node_coordinates
+  use system_data, only: system_t
+  implicit none
+  private
+
+  public :: node_name, member_name, coordinate_name, strain_name
+
+  character(len=2), parameter, public :: component_name(node_coordinates) = &
+    ["X ", "Y ", "Z ", "RX", "RY", "RZ", "W "]
+
+  character(len=10), parameter :: mode_name(8) = ["elongation", "torsion   ", "bending   ", &
+    "bending   ", "bending   ", "bending   ", "warping   ", "warping   "]
+
+contains
+
+  !> "node 3", "node 5.2".
+  pure function node_name(model, node) result(name)
+    type(model_t), intent(in) :: model
+    integer, intent(in) :: node
+    character(len=:), allocatable :: name
+
+    name = "node "//with_part(model%node(node)%id, model%node(node)%part)
+  end function node_name
+
+  !> "element 3", "element 5.2".
+  pure function member_name(model, member) result(name)
+    type(model_t), intent(in) :: model
+    integer, intent(in) :: member
+    character(len=:), allocatable :: name
+
+    name = "element "//with_part(model%member(member)%id, model%member(member)%part)
+  end function member_name
+
+  pure function with_part(id, part) result(name)
+    integer, intent(in) :: id, part
+    character(len=:), allocatable :: name
+
+    name = to_text(id)
+    if (part > 0) name = name//"."//to_text(part)
+  end function with_part
+
+  !> "node 3 RX", or the released strain it belongs to.
+  pure function coordinate_name(model, coordinate) result(name)
+    type(model_t), intent(in) :: model
+    integer, intent(in) :: coordinate
+    character(len=:), allocatable :: name
+    integer :: node
+
+    node = (coordinate - 1)/node_coordinates + 1
+    if (node <= size(model%node)) then
+      name = node_name(model, node)//" "// &
+             trim(component_name(coordinate - node_coordinates*(node - 1)))
+    else
+      name = "a released strain"
+    end if
+  end function coordinate_name
+
+  !> "element 3 mode 2 (torsion)"; strains that hold a rotation name the node.
+  pure function strain_name(model, system, strain) result(name)
+    type(model_t), intent(in) :: model
+    type(system_t), intent(in) :: system
+    integer, intent(in) :: strain
+    character(len=:), allocatable :: name
+    integer :: e, mode
+
+    e = 1
+    do while (system%first(e + 1) < strain)
+      e = e + 1
+    end do
+    mode = strain - system%first(e)
+    if (e <= system%members) then
+      name = member_name(model, e)//" mode "//to_text(mode)//" ("//trim(mode_name(mode))//")"
+    else
+      name = "the fixed rotation of "// &
+             node_name(model, (system%element(e)%e%coordinate(1) - 1)/node_coordinates + 1)
+    end if
+  end function strain_name
+
+end module system_names
