@@ -6,7 +6,7 @@ VENV    = build/venv
 PREFIX  = /usr/local
 
 # MODE is what differs between the release build and those of check-build and coverage.
-MODE    = -O2
+MODE    = -O3
 WARN    = -Wall -Wextra -Wimplicit-interface -Wconversion -fimplicit-none
 WERROR ?= $(if $(filter true,$(CI)),1,0)
 CHECK   = -O1 -fcheck=all,no-array-temps -fsanitize=address,undefined \
@@ -140,8 +140,11 @@ lint: venv  ## strict build, layers, fortitude, lengths, blanks
 	@$(MAKE) --no-print-directory B=$(B)$(if $(filter 1,$(WERROR)),,-lint) WERROR=1 programs
 	@tools/lint $(VENV)
 
-bench: $(B)/spar  ## measure (tools/bench)
-	@SPAR_PROGRAM=$(B)/spar tools/bench
+bench: $(B)/spar $(B)/bench_tangent  ## measure speed and memory (tools/bench)
+	@SPAR_PROGRAM=$(B)/spar BENCH_TANGENT=$(B)/bench_tangent tools/bench
+
+$(B)/bench_tangent: tests/bench/bench_tangent.f90 $(B)/libspar.a $(B)/link
+	$(Q)$(FC) $(FFLAGS) $(CONFIG_FLAGS) -I $(B) -o $@ $< $(B)/libspar.a $(LIBS) 2>/dev/null
 
 install: DIR = $(DESTDIR)$(PREFIX)
 install: $(B)/spar  ## install under PREFIX=/usr/local, or under DESTDIR before that

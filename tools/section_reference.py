@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""Write tests/reference/sections_fe.json: five thin sections solved by finite elements.
+"""Write tests/reference/sections_fe.json: sections solved by finite elements.
 
     tools/section_reference.py [OUT]     needs the PyPI package sectionproperties==3.10.2
 
-Each section is drawn with its full corners (every plate runs on by half the thickness of the plate
+Five thin open sections and, for It and Iw only, a solid rectangle and a box. Each is drawn with its full corners (every plate runs on by half the thickness of the plate
 it meets at an end corner) and meshed with quadratic triangles, four to five across the thinnest
 wall. What thin-wall theory of the midline leaves out, and so the tolerances, with r the largest
 t/b of a plate and of the section:
@@ -13,6 +13,9 @@ t/b of a plate and of the section:
     It           a free end takes 0.105 t**4, a corner or tee adds 0.1 to 0.3 t**4 to b t**3/3: r
     Iw           warping across the wall, b**3 t**3/144, and the moments' errors: up to 4 r**2
     ys, zs       of the section's height: r**2
+    RECT         exact series: 1e-4, the mesh's
+    BOX          Iw goes with (b/t - h/tw)**2 and the corners change each of these by about 1:
+                 2/|b/t - h/tw| = 0.013; It less
 """
 
 import json
@@ -42,6 +45,10 @@ SECTIONS = {
 }
 
 
+# name: outer sizes along z and y, wall thickness along y and z (0: solid), tolerance
+CELLS = {"RECT": (100, 60, 0, 0, 1e-4), "BOX": (200, 100, 2, 1, 0.013)}
+
+
 def polygon(points, plates, thickness):
     """The union of all plates, each run on to fill the corner at an end it shares with one."""
     parts = []
@@ -63,13 +70,27 @@ def polygon(points, plates, thickness):
     return unary_union(parts)
 
 
-def solve(points, plates, thickness):
-    """Area, principal moments, torsion and warping constants, shear centre (drawn axes)."""
-    geometry = Geometry(polygon(points, plates, thickness))
-    geometry.create_mesh(mesh_sizes=[(min(thickness) / 4.5) ** 2])
+def solved(shape, element_area):
+    geometry = Geometry(shape)
+    geometry.create_mesh(mesh_sizes=[element_area])
     section = Section(geometry)
     section.calculate_geometric_properties()
     section.calculate_warping_properties()
+    return section
+
+
+def solve_cell(h, b, t, tw, tolerance):
+    shape = box(0, 0, b, h)
+    if t:
+        shape = shape.difference(box(tw, t, b - tw, h - t))
+    section = solved(shape, (t / 3.5) ** 2 if t else h * b / 3000)
+    return {"size": [h, b, t, tw], "It": section.get_j(), "Iw": section.get_gamma(),
+            "tolerance": tolerance}
+
+
+def solve(points, plates, thickness):
+    """Area, principal moments, torsion and warping constants, shear centre (drawn axes)."""
+    section = solved(polygon(points, plates, thickness), (min(thickness) / 4.5) ** 2)
     i11, i22 = section.get_ip()[:2]
     return {"A": section.get_area(), "I": sorted((i11, i22), reverse=True), "It": section.get_j(),
             "Iw": section.get_gamma(), "centroid": list(section.get_c()),
@@ -94,6 +115,8 @@ def tolerances(points, plates, thickness):
 
 
 def rounded(value):
+    if isinstance(value, str):
+        return value
     if isinstance(value, dict):
         return {k: rounded(v) for k, v in value.items()}
     if isinstance(value, list):
@@ -109,8 +132,10 @@ def main(arguments):
                          **rounded(solve(points, plates, thickness)),
                          "tolerance": rounded(tolerances(points, plates, thickness))})
     lines = ",\n".join(json.dumps(s) for s in sections)
+    cells = ",\n".join(json.dumps(rounded({"name": name, **solve_cell(*sizes)}))
+                       for name, sizes in CELLS.items())
     out.write_text('{"about": "finite elements, sectionproperties ' + VERSION
-                   + '; see tools/section_reference.py",\n"sections": [\n' + lines + "]}\n",
+                   + '; see tools/section_reference.py",\n"sections": [\n' + lines + "],\n\"cells\": [\n" + cells + "]}\n",
                    encoding="utf-8")
 
 

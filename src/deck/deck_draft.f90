@@ -3,7 +3,7 @@
 !> Cards may refer to what stands further down, so lists and loads are kept as written until the end.
 module deck_draft
   use kinds, only: wp
-  use errors, only: error_t
+  use text, only: newline
   use lookup_tables, only: id_table_t
   use diagnostics, only: place_t, report_t
   use model_data, only: model_t, setting_t, second_consistent, mass_consistent
@@ -33,7 +33,8 @@ module deck_draft
   end type item_t
 
   integer, parameter, public :: record_fix = 1, record_flexible = 2, record_release = 3, &
-    record_stiffness = 4, record_inertia = 5, record_load = 6, record_marker = 7
+    record_stiffness = 4, record_inertia = 5, record_load = 6, record_marker = 7, &
+    record_gravity = 8
 
   !> A card about nodes or elements of a list.
   type :: record_t
@@ -111,7 +112,11 @@ module deck_draft
     character(len=:), allocatable :: include_path     !< set by an INCLUDE card
     type(place_t) :: include_place
     logical :: finished = .false.                     !< VISUALIZATION was read
-    type(error_t), allocatable :: failure
+    character(len=:), allocatable :: kept             !< the text read so far, and spare room
+    integer :: kept_length = 0
+  contains
+    procedure :: keep_text
+    procedure :: keep_file
   end type draft_t
 
 contains
@@ -136,5 +141,39 @@ contains
     draft%marker_of = 0
     draft%node_broken = .false.
   end subroutine new_draft
+
+  !> Append to the text of the deck.
+  subroutine keep_text(self, piece)
+    class(draft_t), intent(inout) :: self
+    character(len=*), intent(in) :: piece
+
+    call make_room(self, len(piece))
+    self%kept(self%kept_length + 1:self%kept_length + len(piece)) = piece
+    self%kept_length = self%kept_length + len(piece)
+  end subroutine keep_text
+
+  !> Append a part of a file, with a line end behind it.
+  subroutine keep_file(self, file, from, to)
+    class(draft_t), intent(inout) :: self
+    integer, intent(in) :: file, from, to
+    integer :: length
+
+    length = to - from + 1
+    if (length <= 0) return
+    call make_room(self, length)
+    self%kept(self%kept_length + 1:self%kept_length + length) = &
+      self%report%file(file)%text(from:to)
+    self%kept_length = self%kept_length + length
+    if (self%kept(self%kept_length:self%kept_length) /= newline) call self%keep_text(newline)
+  end subroutine keep_file
+
+  subroutine make_room(draft, length)
+    type(draft_t), intent(inout) :: draft
+    integer, intent(in) :: length
+
+    if (.not. allocated(draft%kept)) draft%kept = ""
+    if (draft%kept_length + length > len(draft%kept)) &
+      draft%kept = draft%kept//repeat(" ", len(draft%kept) + length)
+  end subroutine make_room
 
 end module deck_draft

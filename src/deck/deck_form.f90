@@ -200,11 +200,13 @@ contains
   pure function alternatives(choices) result(phrase)
     character(len=*), intent(in) :: choices
     character(len=:), allocatable :: phrase
-    integer :: i, last
+    integer :: i, last, n
 
     phrase = ""
-    last = index(choices, "/", back=.true.)
-    do i = 1, len_trim(choices)
+    n = len_trim(choices)
+    if (choices(n:n) == "/") n = n - 1
+    last = index(choices(:n), "/", back=.true.)
+    do i = 1, n
       if (choices(i:i) /= "/") then
         phrase = phrase//choices(i:i)
       else if (i == last) then
@@ -364,7 +366,7 @@ contains
           phrase = phrase//" to "//to_text(form%arguments)
       end associate
     end do
-    phrase = phrase//merge(" values", " value ", phrase /= "1" .and. phrase /= "at least 1")
+    phrase = phrase//merge(" arguments", " argument ", phrase /= "1" .and. phrase /= "at least 1")
     phrase = trim(phrase)
   end function counts
 

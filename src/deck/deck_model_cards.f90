@@ -9,6 +9,7 @@ module deck_model_cards
   use deck_growth, only: grow
   use deck_registry, only: registry_t
   use deck_settings, only: is_identifier, reserved_names
+  use deck_number, only: parse_number, number_ok
   use deck_values, only: read_number, read_word, add_list
   implicit none
   private
@@ -64,7 +65,7 @@ contains
     type(card_t), intent(in) :: card
     type(draft_t), intent(inout) :: draft
     character(len=:), allocatable :: name, word
-    logical :: ok, overridden
+    logical :: overridden
     integer :: i
 
     name = card%word(2)
@@ -86,24 +87,30 @@ contains
         draft%override_used(i) = .true.
         overridden = .true.
       end do
-      ok = .true.
-      call define_setting(card, draft, name, word, card%is_quoted(3) .and. .not. overridden, ok)
+      call define_setting(card, draft, name, word, overridden)
     end if
   end subroutine read_set
 
   !> What starts like a number or is an expression must be one.
-  subroutine define_setting(card, draft, name, word, is_quoted, ok)
+  subroutine define_setting(card, draft, name, word, overridden)
     type(card_t), intent(in) :: card
     type(draft_t), intent(inout) :: draft
     character(len=*), intent(in) :: name, word
-    logical, intent(in) :: is_quoted
-    logical, intent(inout) :: ok
+    logical, intent(in) :: overridden
     real(wp) :: number
-    logical :: numeric
+    integer :: status
+    logical :: numeric, ok
 
-    numeric = .not. is_quoted .and. scan(word//" ", "0123456789.+-{") == 1
+    ok = .true.
+    numeric = (overridden .or. .not. card%is_quoted(3)) .and. scan(word//" ", "0123456789.+-{") == 1
     number = 0.0_wp
-    if (numeric) call read_number(word, card%place(3), draft, number, ok)
+    if (numeric .and. overridden) then
+      call parse_number(word, number, status)
+      if (status /= number_ok) call draft%report%add_error(place_t(), "-D "//name//"="//word// &
+                                                     ": "//quoted(word)//" is not a number")
+    else if (numeric) then
+      call read_number(word, card%place(3), draft, number, ok)
+    end if
     if (index(word, "{") == 1) then
       call draft%settings%define(name, to_text(number, 17), numeric, number, card%place(2))
     else

@@ -3,7 +3,7 @@ module output_dimensions
   implicit none
   private
 
-  public :: dimension_powers
+  public :: get_powers
 
   character(len=*), parameter :: letters = "FLTM"
 
@@ -11,9 +11,9 @@ contains
 
   !> Powers of F L T M for each blank-separated word: letters with an optional exponent, as in
   !> "FL2" or "ML-3"; "1" has none.
-  pure function dimension_powers(words) result(powers)
+  pure subroutine get_powers(words, powers)
     character(len=*), intent(in) :: words
-    integer, allocatable :: powers(:, :)   !< (4, words)
+    integer, allocatable, intent(out) :: powers(:, :)   !< (4, words)
     integer :: i, n, letter, digit, sign
 
     n = 1
@@ -40,6 +40,6 @@ contains
         powers(letter, n) = sign*digit
       end if
     end do
-  end function dimension_powers
+  end subroutine get_powers
 
 end module output_dimensions

@@ -255,18 +255,16 @@ contains
     end do
   end function findloc_false
 
-  !> Indices of the plates thicker than a fifth of their width, where the error of thin-wall
-  !> theory, of order (t/b)**2, passes some per cent: worth a warning.
-  pure function thick_plates(points, plates, thickness) result(found)
+  !> Which plates are thicker than a fifth of their width, where the error of thin-wall theory, of
+  !> order (t/b)**2, passes some per cent: worth a warning.
+  pure function thick_plates(points, plates, thickness) result(thick)
     real(wp), intent(in) :: points(:, :), thickness(:)
     integer, intent(in) :: plates(:, :)
-    integer, allocatable :: found(:)
+    logical :: thick(size(thickness))
     integer :: i
 
-    allocate (found(0))
     do i = 1, size(thickness)
-      if (thickness(i) > norm2(points(:, plates(2, i)) - points(:, plates(1, i)))/5.0_wp) &
-        found = [found, i]
+      thick(i) = thickness(i) > norm2(points(:, plates(2, i)) - points(:, plates(1, i)))/5.0_wp
     end do
   end function thick_plates
 

@@ -94,8 +94,9 @@ contains
     elastic = matmul(law, strain)
     stress_rate = matmul(law, jacobian)
     do j = 1, element%coordinates
-      do i = 1, element%coordinates
+      do i = 1, j
         tangent(i, j) = tangent(i, j) + dot_product(jacobian(:, i), stress_rate(:, j))
+        tangent(j, i) = tangent(i, j)
       end do
     end do
     iterate%strain(first:last) = strain

@@ -1,0 +1,181 @@
+!> The keyword table: what the reader, `spar keywords` and the manual know of a keyword.
+module deck_keywords
+  use deck_handler, only: keyword_t
+  use deck_model_cards, only: read_title, read_set, read_include, read_nothing, &
+                              read_visualization, read_outlevel, read_node, read_material, &
+                              read_constants, read_group_nodes, read_group_elements
+  use deck_function_cards, only: read_ramp, read_sine, read_step, read_table, read_formula
+  use deck_element_cards, only: read_beamw, read_dyne, read_rlse, read_estiff, read_em
+  use deck_load_cards, only: read_fix, read_marker, read_xf, read_delxf, read_gravity, &
+                             read_static, read_iterstep
+  implicit none
+  private
+
+  public :: keywords
+
+contains
+
+  !> All keywords, in the order of the manual; variants of one keyword stand together.
+  function keywords() result(table)
+    type(keyword_t), allocatable :: table(:)
+
+    table = [form_keywords(), model_keywords(), function_keywords(), load_keywords(), &
+             analysis_keywords()]
+  end function keywords
+
+  !> What concerns the deck itself.
+  function form_keywords() result(table)
+    type(keyword_t), allocatable :: table(:)
+
+    table = [ &
+      keyword_t("TITLE", "form", "text:text+", "", &
+        "names the model in the result file", &
+        "TITLE ""Channel cantilever""", "", read_title), &
+      keyword_t("SET", "form", "name:word value:text", "", &
+        "defines a name for expressions, a number or a word; once, and `-D name=value` replaces "// &
+        "the value", &
+        "SET L 900|NODE 2 {L/2} 0 0", "", read_set), &
+      keyword_t("INCLUDE", "form", "file:text", "", &
+        "reads another file here; its path counts from the folder of the file with this card", &
+        "INCLUDE ""sections.deck""", "", read_include), &
+      keyword_t("END", "form", "", "", "separates parts of a deck, without meaning", &
+        "END", "END", read_nothing), &
+      keyword_t("HALT", "form", "", "", "separates parts of a deck, without meaning", &
+        "HALT", "HALT", read_nothing), &
+      keyword_t("VISUALIZATION", "form", "text:text*", "", "ends the deck: nothing behind it is read", &
+        "VISUALIZATION", "VISUALIZATION", read_visualization), &
+      keyword_t("OUTLEVEL", "form", "level:text*", "", "is ignored, with a note", &
+        "OUTLEVEL 0 1", "OUTLEVEL", read_outlevel)]
+  end function form_keywords
+
+  !> Nodes, materials, sections, elements.
+  function model_keywords() result(table)
+    type(keyword_t), allocatable :: table(:)
+
+    table = [ &
+      keyword_t("NODE", "model", "id:id x:L y:L z:L", "", &
+        "places a node; a range as id repeats the card with `i` = the id", &
+        "NODE 1 0 0 0|NODE 2:9 {100*(i-1)} 0 0", "X", read_node), &
+      keyword_t("X", "model", "id:id x:L y:L z:L", "", "is NODE in SPACAR's words", &
+        "X 1 0 0 0", "X", read_node), &
+      keyword_t("MATERIAL", "model", "name:word", &
+        "E e:F*L^-2! | G g:F*L^-2 | NU nu:1 | RHO rho:M*L^-3=0 | DAMPING beta:T=0", &
+        "gives Young's modulus, the shear modulus or Poisson's ratio, density and "// &
+        "stiffness-proportional damping", &
+        "MATERIAL steel E 21000 NU 0.3 RHO 7.85e-8", "", read_material), &
+      keyword_t("SECTION", "model", "name:word CONSTANTS", &
+        "A a:L^2! | IY iy:L^4! | IZ iz:L^4! | IT it:L^4! | IW iw:L^6=0 | YS ys:L=0 | ZS zs:L=0 | "// &
+        "DY dy:L^2 | DZ dz:L^2 | DW dw:L^4 | DYZ dyz:L^2=0 | DYW dyw:L^3=0 | DZW dzw:L^3=0 | "// &
+        "BY by:L=0 | BZ bz:L=0 | BW bw:1=0 | IR ir:L^6=0", &
+        "gives a section by its constants about the principal axes through the centroid: area, "// &
+        "second moments, torsion and warping constants, shear centre, shear rigidities (without "// &
+        "them rigid in shear), Wagner constants", &
+        "SECTION tube CONSTANTS A 10 IY 80 IZ 90 IT 170|SECTION c CONSTANTS A 58.8 IY 8038.7 "// &
+        "IZ 559.9 IT 35.4 IW 78943 YS -6.08 &| DY 13.4 DZ 26.8 DW 4339 DZW 59.4 BZ 31.6", &
+        "", read_constants), &
+      keyword_t("BEAMW", "model", &
+        "id:id p:node q:node | id:id p:node q:node ox:1 oy:1 oz:1 | "// &
+        "id:id Xp:node Rp:node Wp:node Xq:node Rq:node Wq:node | "// &
+        "id:id Xp:node Rp:node Wp:node Xq:node Rq:node Wq:node ox:1 oy:1 oz:1", &
+        "SECTION name:word | MATERIAL name:word | SECOND order:CONSISTENT/JONKER/NONE=CONSISTENT | "// &
+        "SHEAR state:ON/OFF=ON | MASS kind:CONSISTENT/LUMPED/NONE=CONSISTENT | "// &
+        "ROTARY state:ON/OFF=ON | DIVIDE parts:count=1 | RIGID", &
+        "is a beam with warping between nodes p and q; o is the direction of the section's y "// &
+        "axis. With SECTION and MATERIAL all eight modes are flexible, without SECTION none is. "// &
+        "DIVIDE n makes parts id.1 to id.n and inner nodes id.1 to id.(n-1)", &
+        "NODE 1 0 0 0|NODE 2 900 0 0|MATERIAL steel E 21000 NU 0.3|SECTION tube CONSTANTS A 10 "// &
+        "IY 80 IZ 90 IT 170|BEAMW 1 1 2 0 1 0 SECTION tube MATERIAL steel DIVIDE 10", &
+        "BEAMW", read_beamw), &
+      keyword_t("DYNE", "model", "elements:elements mode:mode+", "", &
+        "makes modes flexible; of a beam with SECTION, these only. Modes 7 and 8 follow mode 2", &
+        "DYNE 1:3 2 3 4", "DYNE", read_dyne), &
+      keyword_t("RLSE", "model", "elements:elements mode:mode+", "", &
+        "releases modes: they deform without stress. Modes 3, 5, 7 are at end p, 4, 6, 8 at q", &
+        "RLSE 2 4 6", "RLSE", read_rlse), &
+      keyword_t("ESTIFF", "model", "elements:elements EA:F GIt:F*L^2 EIy:F*L^2 EIz:F*L^2 "// &
+        "cy:L^2 cz:L^2 EIw:F*L^4", "", &
+        "gives stiffness to a beam without SECTION, for the modes that DYNE makes flexible; "// &
+        "cy = EIy/(G A k), likewise cz", &
+        "ESTIFF 1 2e6 4e5 3e5 2e5 0.1 0.2 5e4", "ESTIFF", read_estiff), &
+      keyword_t("EM", "model", "elements:elements rhoA:M*L^-1 rhoIp:M*L rhoIy:M*L rhoIz:M*L "// &
+        "rhoIyz:M*L rhoIw:M*L^3", "", "gives mass to a beam without SECTION", &
+        "EM 1 7.85 0.2 0.15 0.05 0 0.01", "EM", read_em), &
+      keyword_t("GROUP", "model", "name:word NODES list:text+", "", &
+        "names a list of nodes; a list is an id, a:b, a:b:s, ALL or a group", &
+        "GROUP tip NODES 4 11:15 20:30:2", "", read_group_nodes), &
+      keyword_t("GROUP", "model", "name:word ELEMENTS list:text+", "", &
+        "names a list of elements", "GROUP legs ELEMENTS 1 4:6 7.2", "", read_group_elements), &
+      keyword_t("MARKER", "model", "name:word node:node", &
+        "AT oy:place oz:L! | OF element:element", &
+        "names a point fixed to a section at a node, at (oy, oz) or AT POINT k of the section; "// &
+        "OF says whose section where several meet", &
+        "MARKER corner 2 AT -2.456 14.2", "", read_marker)]
+  end function model_keywords
+
+  !> Functions of the load factor.
+  function function_keywords() result(table)
+    type(keyword_t), allocatable :: table(:)
+
+    table = [ &
+      keyword_t("FUNCTION", "load", "name:word RAMP s0:1 s1:1", "", &
+        "rises from 0 at s0 to 1 at s1; s is the load factor in STATIC, else time", &
+        "FUNCTION lift RAMP 0 0.5", "", read_ramp), &
+      keyword_t("FUNCTION", "load", "name:word SINE amplitude:1 cycles:1 phase:1?", "", &
+        "is amplitude sin(2 pi cycles s + phase)", &
+        "FUNCTION wave SINE 1 3 0.5", "", read_sine), &
+      keyword_t("FUNCTION", "load", "name:word STEP s0:1", "", &
+        "is 0 before s0 and 1 from s0 on", "FUNCTION drop STEP 0.4", "", read_step), &
+      keyword_t("FUNCTION", "load", "name:word TABLE s:1 v:1+", "", &
+        "runs straight between pairs of s and value, is constant outside and jumps where an s "// &
+        "comes twice", &
+        "FUNCTION path TABLE 0 0  0.5 1  0.5 0.8  1 0.2", "", read_table), &
+      keyword_t("FUNCTION", "load", "name:word EXPR expression:text", "", &
+        "is an expression in t, which stands for s", &
+        "FUNCTION soft EXPR {t^2*(3-2*t)}", "", read_formula)]
+  end function function_keywords
+
+  !> Supports and loads.
+  function load_keywords() result(table)
+    type(keyword_t), allocatable :: table(:)
+    character(len=*), parameter :: load_options = &
+      "FUNCTION name:word | AT oy:place oz:L | OF element:element"
+
+    table = [ &
+      keyword_t("FIX", "model", "nodes:nodes component:component*", "", &
+        "holds coordinates: X Y Z RX RY RZ W, none: all that exist, warping included. SPACAR's "// &
+        "numbers count within a kind (translational 1-3, rotational 2-4, warping 1)", &
+        "FIX 1|FIX 2:4 Y RX RZ", "FIX", read_fix), &
+      keyword_t("XF", "load", "nodes:nodes B:F*L^2 | nodes:nodes Fx:F Fy:F Fz:F | "// &
+        "nodes:nodes Fx:F Fy:F Fz:F Mx:F*L My:F*L Mz:F*L | "// &
+        "nodes:nodes Fx:F Fy:F Fz:F Mx:F*L My:F*L Mz:F*L B:F*L^2", load_options, &
+        "is a dead load: a force (a moment on a node that is only rotational), force and moment, "// &
+        "these and a bimoment, or a bimoment (node that is only warping); at the node, AT a point "// &
+        "of the section or at a marker; FUNCTION replaces the load factor", &
+        "XF 2 0 0 -6|XF 3 0 0 -1 AT -2.456 14.2|XF 4 0 0 0 5 0 0 FUNCTION wave", &
+        "XF", read_xf), &
+      keyword_t("DELXF", "load", "nodes:nodes B:F*L^2 | nodes:nodes Fx:F Fy:F Fz:F | "// &
+        "nodes:nodes Fx:F Fy:F Fz:F Mx:F*L My:F*L Mz:F*L | "// &
+        "nodes:nodes Fx:F Fy:F Fz:F Mx:F*L My:F*L Mz:F*L B:F*L^2", load_options, &
+        "is XF after an implied STATIC that applies the XF loads first", &
+        "XF 2 10 0 0|DELXF 2 0 0 -1", "DELXF", read_delxf), &
+      keyword_t("GRAVITY", "load", "gx:L*T^-2 gy:L*T^-2 gz:L*T^-2", "", &
+        "is an acceleration of gravity that acts on all mass", &
+        "GRAVITY 0 0 -981", "", read_gravity)]
+  end function load_keywords
+
+  function analysis_keywords() result(table)
+    type(keyword_t), allocatable :: table(:)
+
+    table = [ &
+      keyword_t("STATIC", "analysis", "", "STEPS n:count=10 | TO factor:1=1 | "// &
+        "CONTROL kind:LOAD/=LOAD | TOL tolerance:1 | MAXITER n:count | NAME name:word", &
+        "ramps the loads given since the last analysis by the load factor to TO, in equal steps", &
+        "STATIC STEPS 12 NAME lift", "mode 10", read_static), &
+      keyword_t("ITERSTEP", "analysis", &
+        "iterations:count n:count? tolerance:1? -:text? -:text? m:count?", "", &
+        "sets the defaults of STATIC: iterations and tolerance, m steps for the XF loads and n "// &
+        "for the DELXF loads", &
+        "ITERSTEP 20 10 1e-7 0 0 5", "ITERSTEP", read_iterstep)]
+  end function analysis_keywords
+
+end module deck_keywords

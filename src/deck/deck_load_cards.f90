@@ -1,0 +1,253 @@
+!> Cards about supports, loads and markers, and the analyses.
+module deck_load_cards
+  use text, only: quoted, upper
+  use diagnostics, only: place_t
+  use deck_card, only: card_t
+  use deck_draft, only: draft_t, record_t, iteration_t, record_fix, record_load, record_marker, &
+                        record_gravity
+  use deck_growth, only: grow
+  use deck_settings, only: is_identifier
+  use deck_values, only: read_word
+  use deck_model_cards, only: define_name
+  use deck_element_cards, only: add_record, add_item
+  implicit none
+  private
+
+  public :: read_fix, read_marker, read_xf, read_delxf, read_gravity, read_static, read_iterstep
+
+  integer, parameter :: most_steps = 1000000
+
+contains
+
+  !> FIX nodes [components]
+  subroutine read_fix(card, draft)
+    type(card_t), intent(in) :: card
+    type(draft_t), intent(inout) :: draft
+    type(record_t) :: record
+    integer :: w
+
+    record%kind = record_fix
+    record%item_from = draft%items + 1
+    do w = 3, card%words
+      call add_item(card, w, draft)
+    end do
+    record%item_to = draft%items
+    call add_record(card, 2, draft, record)
+  end subroutine read_fix
+
+  !> MARKER name node AT oy oz [OF element]
+  subroutine read_marker(card, draft)
+    type(card_t), intent(in) :: card
+    type(draft_t), intent(inout) :: draft
+    type(record_t) :: record
+    logical :: ok
+
+    ok = is_identifier(card%word(2)) .and. upper(card%word(2)) /= "ALL"
+    if (.not. ok) then
+      call draft%report%add_error(card%place(2), quoted(card%word(2))// &
+                                  " cannot be the name of a marker", &
+                                  "names have letters, digits and _, no digit first")
+      return
+    end if
+    call define_name(card, 2, draft%report, draft%labels, ok, record%marker)
+    if (record%marker == 0) return
+    record%kind = record_marker
+    call read_point(card, 1, record)
+    draft%markers = draft%markers + 1
+    call grow(draft%model%marker, draft%markers)
+    draft%model%marker(draft%markers)%name = card%word(2)
+    draft%model%marker(draft%markers)%place = card%place(2)
+    call grow(draft%marker_of, record%marker)
+    draft%marker_of(record%marker) = draft%markers
+    call add_record(card, 3, draft, record)
+  end subroutine read_marker
+
+  !> AT oy oz, AT POINT k and OF element; `AT` is option `first`, `OF` the next.
+  subroutine read_point(card, first, record)
+    type(card_t), intent(in) :: card
+    integer, intent(in) :: first
+    type(record_t), intent(inout) :: record
+    integer :: w
+
+    w = card%option(first)
+    if (w > 0) then
+      record%at_place = card%place(w + 1)
+      record%at_place%width = card%column(w + 2) + card%last(w + 2) - card%first(w + 2) + 1 &
+                              - card%column(w + 1)
+      if (card%line(w + 2) /= card%line(w + 1)) record%at_place = card%place(w + 1)
+      record%at_point = card%whole(w + 1) == 1
+      record%at_offset = .not. record%at_point
+      if (record%at_point) record%point = nint(card%number(w + 2))
+      if (record%at_offset) record%offset = card%number(w + 1:w + 2)
+    end if
+    w = card%option(first + 1)
+    if (w == 0) return
+    record%of_given = .true.
+    record%of_id = card%whole(w + 1)
+    record%of_part = card%part(w + 1)
+    record%of_place = card%place(w + 1)
+  end subroutine read_point
+
+  !> XF nodes values [FUNCTION f] [AT oy oz] [OF element]
+  subroutine read_xf(card, draft)
+    type(card_t), intent(in) :: card
+    type(draft_t), intent(inout) :: draft
+
+    call add_load(card, draft, .false.)
+  end subroutine read_xf
+
+  !> The same after an implied STATIC.
+  subroutine read_delxf(card, draft)
+    type(card_t), intent(in) :: card
+    type(draft_t), intent(inout) :: draft
+
+    call add_load(card, draft, .true.)
+  end subroutine read_delxf
+
+  subroutine add_load(card, draft, additional)
+    type(card_t), intent(in) :: card
+    type(draft_t), intent(inout) :: draft
+    logical, intent(in) :: additional
+    type(record_t) :: record
+    character(len=:), allocatable :: name
+
+    record%kind = record_load
+    record%additional = additional
+    record%values = card%positional - 1
+    record%value(:record%values) = card%number(3:2 + record%values)
+    if (card%option(1) > 0) then
+      call read_word(card, card%option(1) + 1, draft, name)
+      call draft%functions%refer(name, card%place(card%option(1) + 1), record%function)
+    end if
+    call read_point(card, 2, record)
+    if (record%of_given .and. card%option(2) == 0) call draft%report%add_error( &
+      card%place(card%option(3)), "OF names the section that AT refers to: AT is missing")
+    if (card%option(2) > 0 .and. record%values == 1) call draft%report%add_error( &
+      card%place(card%option(2)), "a bimoment alone acts at the node, not AT a point")
+    call add_record(card, 2, draft, record)
+  end subroutine add_load
+
+  !> GRAVITY gx gy gz
+  subroutine read_gravity(card, draft)
+    type(card_t), intent(in) :: card
+    type(draft_t), intent(inout) :: draft
+    type(record_t) :: record
+    integer :: i
+
+    do i = 1, draft%records
+      if (draft%record(i)%kind /= record_gravity .or. draft%record(i)%block /= draft%block) cycle
+      call draft%report%add_error(card%place(1), "GRAVITY is given twice before an analysis", &
+                                  "first at "//draft%report%location(draft%record(i)%place))
+      return
+    end do
+    record%kind = record_gravity
+    record%place = card%place(1)
+    record%block = draft%block
+    record%value(:3) = card%number(2:4)
+    draft%records = draft%records + 1
+    call grow(draft%record, draft%records)
+    draft%record(draft%records) = record
+  end subroutine read_gravity
+
+  !> STATIC [STEPS n] [TO factor] [CONTROL LOAD] [TOL t] [MAXITER m] [NAME word]
+  subroutine read_static(card, draft)
+    type(card_t), intent(in) :: card
+    type(draft_t), intent(inout) :: draft
+    character(len=:), allocatable :: name
+    integer :: k
+
+    k = draft%analyses + 1
+    draft%analyses = k
+    draft%block = draft%block + 1
+    call grow(draft%model%analysis, k)
+    call grow(draft%analysis_steps, k)
+    associate (analysis => draft%model%analysis(k), option => card%option)
+      analysis%place = card%place(1)
+      draft%analysis_steps(k) = 0
+      if (option(1) > 0) then
+        draft%analysis_steps(k) = card%whole(option(1) + 1)
+        call check_count(card, option(1) + 1, most_steps, draft)
+      end if
+      if (option(2) > 0) analysis%factor = card%number(option(2) + 1)
+      if (option(4) > 0) then
+        analysis%tolerance = card%number(option(4) + 1)
+        call check_tolerance(card, option(4) + 1, draft)
+      end if
+      if (option(5) > 0) then
+        analysis%iterations = card%whole(option(5) + 1)
+        call check_count(card, option(5) + 1, most_steps, draft)
+      end if
+      if (option(6) > 0) then
+        call read_word(card, option(6) + 1, draft, name)
+        analysis%name = name
+        call check_name(card, option(6) + 1, k, draft)
+      end if
+    end associate
+  end subroutine read_static
+
+  !> A result group's name must be a plain word, once.
+  subroutine check_name(card, w, k, draft)
+    type(card_t), intent(in) :: card
+    integer, intent(in) :: w, k
+    type(draft_t), intent(inout) :: draft
+    integer :: i
+
+    if (.not. is_identifier(trim(draft%model%analysis(k)%name))) then
+      call draft%report%add_error(card%place(w), quoted(card%word(w))//" cannot be a name", &
+                                  "names have letters, digits and _, no digit first")
+      return
+    end if
+    do i = 1, k - 1
+      if (draft%model%analysis(i)%name /= draft%model%analysis(k)%name) cycle
+      call draft%report%add_error(card%place(w), "an analysis has this name already", "at "// &
+                                  draft%report%location(draft%model%analysis(i)%place))
+      return
+    end do
+  end subroutine check_name
+
+  subroutine check_count(card, w, most, draft)
+    type(card_t), intent(in) :: card
+    integer, intent(in) :: w, most
+    type(draft_t), intent(inout) :: draft
+
+    if (card%whole(w) >= 1 .and. card%whole(w) <= most) return
+    call draft%report%add_error(card%place(w), "a number from 1 to 1000000 expected")
+  end subroutine check_count
+
+  subroutine check_tolerance(card, w, draft)
+    type(card_t), intent(in) :: card
+    integer, intent(in) :: w
+    type(draft_t), intent(inout) :: draft
+
+    if (card%number(w) > 0 .and. card%number(w) < 1) return
+    call draft%report%add_error(card%place(w), "a tolerance lies between 0 and 1")
+  end subroutine check_tolerance
+
+  !> ITERSTEP iterations n tolerance - - m: defaults of all analyses.
+  subroutine read_iterstep(card, draft)
+    type(card_t), intent(in) :: card
+    type(draft_t), intent(inout) :: draft
+    type(iteration_t) :: iteration
+
+    if (draft%iteration%place%line > 0) call draft%report%add_error( &
+      card%place(1), "ITERSTEP is given twice", &
+      "first at "//draft%report%location(draft%iteration%place))
+    iteration%place = card%place(1)
+    iteration%iterations = card%whole(2)
+    call check_count(card, 2, most_steps, draft)
+    if (card%positional >= 2) then
+      iteration%additional_steps = card%whole(3)
+      call check_count(card, 3, most_steps, draft)
+    end if
+    if (card%positional >= 3) then
+      iteration%tolerance = card%number(4)
+      call check_tolerance(card, 4, draft)
+    end if
+    if (card%positional >= 6) then
+      iteration%base_steps = card%whole(7)
+      call check_count(card, 7, most_steps, draft)
+    end if
+    draft%iteration = iteration
+  end subroutine read_iterstep
+
+end module deck_load_cards

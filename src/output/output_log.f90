@@ -1,0 +1,302 @@
+!> What a user sees of a run: tables on standard output, warnings and a progress line on standard
+!> error.
+module output_log
+  use, intrinsic :: iso_fortran_env, only: output_unit, error_unit
+  use kinds, only: wp, i8
+  use text, only: to_text, plural
+  use model_data, only: model_t, analysis_t
+  use program_version, only: program_name, version
+  use recorder, only: step_t, iteration_t
+  use system_results, only: results_t
+  use output_files, only: error_is_terminal
+  implicit none
+  private
+
+  public :: run_log_t
+
+  integer, parameter, public :: log_quiet = 0, log_normal = 1, log_verbose = 2
+
+  integer, parameter :: most_rows = 40                   !< of the table of an analysis
+  real(wp), parameter :: patience = 0.5_wp, pause = 0.1_wp  !< first progress line, later ones [s]
+  character(len=*), parameter :: erase = achar(13)//achar(27)//"[K"
+  character(len=*), parameter :: kind_names(1) = ["STATIC"]
+
+  !> What the summary says of an analysis.
+  type :: summary_t
+    character(len=:), allocatable :: name
+    integer :: steps = 0, iterations = 0, cutbacks = 0
+    real(wp) :: factor = 0.0_wp
+    real(wp) :: largest = 0.0_wp                 !< displacement at the end
+    character(len=:), allocatable :: where       !< its node
+    logical :: complete = .false.
+  end type summary_t
+
+  type :: run_log_t
+    private
+    integer :: level = log_normal
+    logical :: progress = .false.       !< a progress line may be shown
+    logical :: shown = .false.          !< and is now
+    integer(i8) :: start = 0, shown_at = 0   !< clock
+    integer :: steps = 0                !< of the present analysis, in all
+    integer :: every = 1                !< steps from one row of its table to the next
+    integer :: warnings = 0
+    character(len=20), allocatable :: node(:)
+    type(summary_t), allocatable :: summary(:)
+    integer :: analyses = 0
+  contains
+    procedure :: open => open_log
+    procedure :: begin => begin_analysis
+    procedure :: iteration => log_iteration
+    procedure :: remark => log_remark
+    procedure :: step => log_step
+    procedure :: finish => finish_analysis
+    procedure :: close => close_log
+  end type run_log_t
+
+contains
+
+  !> Say what is going to be computed.
+  subroutine open_log(self, level, progress, deck, model)
+    class(run_log_t), intent(inout) :: self
+    integer, intent(in) :: level
+    logical, intent(in) :: progress            !< show how far a long run is
+    character(len=*), intent(in) :: deck
+    type(model_t), intent(in) :: model
+    integer :: i
+
+    self%level = level
+    self%progress = progress .and. level > log_quiet
+    if (self%progress) self%progress = error_is_terminal()
+    call system_clock(self%start)
+    self%shown_at = self%start
+    allocate (self%node(size(model%node)), self%summary(size(model%analysis)))
+    do i = 1, size(model%node)
+      self%node(i) = to_text(model%node(i)%id)
+      if (model%node(i)%part > 0) &
+        self%node(i) = trim(self%node(i))//"."//to_text(model%node(i)%part)
+    end do
+    call say(self, program_name//" "//version//", "//deck)
+    if (model%title /= "") call say(self, model%title)
+    call say(self, plural(size(model%node), "node")//", "//plural(size(model%member), &
+             "element")//", "//plural(size(model%section), "section")//", "// &
+             plural(size(model%material), "material"))
+  end subroutine open_log
+
+  !> A line on standard output; who no longer listens is no error.
+  subroutine say(self, line)
+    type(run_log_t), intent(inout) :: self
+    character(len=*), intent(in) :: line
+    integer :: status
+
+    if (self%level == log_quiet) return
+    call hide_progress(self)
+    write (output_unit, "(a)", iostat=status) line
+  end subroutine say
+
+  subroutine begin_analysis(self, number, analysis)
+    class(run_log_t), intent(inout) :: self
+    integer, intent(in) :: number
+    type(analysis_t), intent(in) :: analysis
+
+    self%analyses = number
+    self%steps = analysis%steps
+    self%every = row_distance(analysis%steps)
+    if (self%level == log_verbose) self%every = 1
+    associate (summary => self%summary(number))
+      summary%name = to_text(number)//" "//trim(kind_names(analysis%kind))
+      if (analysis%name /= "") summary%name = summary%name//" "//trim(analysis%name)
+      summary%where = ""
+      call say(self, "")
+      call say(self, "Analysis "//summary%name//": "//plural(analysis%steps, "step")// &
+               " to load factor "//to_text(analysis%factor))
+    end associate
+    if (self%level == log_verbose) then
+      call say(self, "    step   load factor   iteration   residual   increment")
+    else
+      call say(self, "    step   load factor   iterations   residual   increment"// &
+               "   largest displacement")
+    end if
+  end subroutine begin_analysis
+
+  !> 1, 2, 5, 10, ...: so many steps from row to row that the table stays short.
+  pure integer function row_distance(steps) result(every)
+    integer, intent(in) :: steps
+
+    every = 1
+    do while (steps/every > most_rows)
+      every = every*2
+      if (index(to_text(every), "4") == 1) every = every/4*5
+    end do
+  end function row_distance
+
+  subroutine log_iteration(self, iteration)
+    class(run_log_t), intent(inout) :: self
+    type(iteration_t), intent(in) :: iteration
+
+    if (self%level == log_verbose) call say(self, row(iteration%step, iteration%factor, &
+      iteration%iteration, 12, iteration))
+    call show_progress(self, iteration)
+  end subroutine log_iteration
+
+  !> The columns that steps and iterations have in common.
+  function row(step, factor, count, width, iteration) result(line)
+    integer, intent(in) :: step, count
+    real(wp), intent(in) :: factor
+    integer, intent(in) :: width                !< of the column of `count`
+    type(iteration_t), intent(in) :: iteration
+    character(len=:), allocatable :: line
+
+    line = right(to_text(step), 8)//right(to_text(factor), 14)//right(to_text(count), width)// &
+           right(small(iteration%residual), 11)//right(small(iteration%increment), 12)
+  end function row
+
+  !> A measure of error in two digits.
+  pure function small(x) result(word)
+    real(wp), intent(in) :: x
+    character(len=:), allocatable :: word
+    character(len=12) :: buffer
+
+    write (buffer, "(es8.1)") x
+    word = trim(adjustl(buffer))
+  end function small
+
+  pure function right(word, width)
+    character(len=*), intent(in) :: word
+    integer, intent(in) :: width
+    character(len=:), allocatable :: right
+
+    right = repeat(" ", max(0, width - len(word)))//word
+  end function right
+
+  !> Warnings go to standard error.
+  subroutine log_remark(self, text)
+    class(run_log_t), intent(inout) :: self
+    character(len=*), intent(in) :: text
+    integer :: status
+
+    if (index(text, "warning:") /= 1) then
+      call say(self, "          "//text)
+      return
+    end if
+    self%warnings = self%warnings + 1
+    if (self%level == log_quiet) return
+    call hide_progress(self)
+    write (error_unit, "(a)", iostat=status) text
+  end subroutine log_remark
+
+  subroutine log_step(self, step, results)
+    class(run_log_t), intent(inout) :: self
+    type(step_t), intent(in) :: step
+    type(results_t), intent(in) :: results
+    integer :: i, largest
+    character(len=:), allocatable :: tail
+
+    if (self%level == log_quiet) return
+    largest = 1
+    do i = 2, size(results%displacement, 2)
+      if (norm2(results%displacement(:, i)) > norm2(results%displacement(:, largest))) largest = i
+    end do
+    associate (summary => self%summary(self%analyses))
+      summary%steps = step%step
+      summary%iterations = summary%iterations + step%iterations
+      summary%cutbacks = summary%cutbacks + step%cutbacks
+      summary%factor = step%factor
+      summary%largest = norm2(results%displacement(:, largest))
+      summary%where = trim(self%node(largest))
+      if (self%level == log_verbose) return
+      if (step%step > 1 .and. step%step < self%steps .and. modulo(step%step, self%every) > 0) return
+      tail = right(to_text(summary%largest, 5), 14)//" at node "//summary%where
+    end associate
+    call say(self, row(step%step, step%factor, step%iterations, 13, step%last)//tail)
+  end subroutine log_step
+
+  subroutine finish_analysis(self, complete)
+    class(run_log_t), intent(inout) :: self
+    logical, intent(in) :: complete
+
+    self%summary(self%analyses)%complete = complete
+    call hide_progress(self)
+  end subroutine finish_analysis
+
+  !> The summary: a row for each analysis, then where the results are.
+  subroutine close_log(self, path)
+    class(run_log_t), intent(inout) :: self
+    character(len=*), intent(in) :: path   !< result file; empty: there is none
+    integer :: i, width
+
+    call hide_progress(self)
+    if (self%analyses > 0) then
+      width = 8
+      do i = 1, self%analyses
+        width = max(width, len(self%summary(i)%name))
+      end do
+      call say(self, "")
+      call say(self, "Analysis"//repeat(" ", width - 8)// &
+               "   steps   load factor   iterations   cut-backs   largest displacement")
+      do i = 1, self%analyses
+        call say(self, summary_row(self%summary(i), width))
+      end do
+    end if
+    if (self%warnings > 0) call say(self, plural(self%warnings, "warning"))
+    if (path /= "") call say(self, "Results in "//path//", "//elapsed(self)//" s")
+  end subroutine close_log
+
+  function summary_row(summary, width) result(line)
+    type(summary_t), intent(in) :: summary
+    integer, intent(in) :: width
+    character(len=:), allocatable :: line
+
+    line = summary%name//repeat(" ", width - len(summary%name))// &
+           right(to_text(summary%steps), 8)//right(to_text(summary%factor), 14)// &
+           right(to_text(summary%iterations), 13)//right(to_text(summary%cutbacks), 12)
+    if (summary%steps > 0) line = line//right(to_text(summary%largest, 5), 14)//" at node "// &
+                                  summary%where
+    if (.not. summary%complete) line = line//"   (not complete)"
+  end function summary_row
+
+  !> Seconds since the start, in two digits.
+  function elapsed(self) result(word)
+    type(run_log_t), intent(in) :: self
+    character(len=:), allocatable :: word
+
+    word = to_text(max(0.001_wp, seconds_since(self%start)), 2)
+  end function elapsed
+
+  function seconds_since(start) result(seconds)
+    integer(i8), intent(in) :: start
+    real(wp) :: seconds
+    integer(i8) :: now, rate
+
+    call system_clock(now, rate)
+    seconds = real(now - start, wp)/real(rate, wp)
+  end function seconds_since
+
+  !> Overwrite the progress line, from time to time.
+  subroutine show_progress(self, iteration)
+    type(run_log_t), intent(inout) :: self
+    type(iteration_t), intent(in) :: iteration
+    integer :: percent, status
+
+    if (.not. self%progress) return
+    if (seconds_since(self%shown_at) < merge(pause, patience, self%shown_at > self%start)) return
+    call system_clock(self%shown_at)
+    self%shown = .true.
+    percent = (100*(iteration%step - 1))/max(1, self%steps)
+    write (error_unit, "(a)", advance="no", iostat=status) erase// &
+      trim(self%summary(self%analyses)%name)//": step "//to_text(iteration%step)//" of "// &
+      to_text(self%steps)//", load factor "//to_text(iteration%factor)//", iteration "// &
+      to_text(iteration%iteration)//", "//to_text(percent)//" %"
+    flush (error_unit, iostat=status)
+  end subroutine show_progress
+
+  subroutine hide_progress(self)
+    type(run_log_t), intent(inout) :: self
+    integer :: status
+
+    if (.not. self%shown) return
+    write (error_unit, "(a)", advance="no", iostat=status) erase
+    flush (error_unit, iostat=status)
+    self%shown = .false.
+  end subroutine hide_progress
+
+end module output_log

@@ -1,0 +1,120 @@
+!> The recorder of a run: result file, terminal and interruptions together.
+module output_recorder
+  use errors, only: error_t
+  use model_data, only: model_t, analysis_t
+  use system_results, only: results_t
+  use recorder, only: recorder_t, step_t, iteration_t
+  use output_results, only: result_file_t
+  use output_log, only: run_log_t, log_normal
+  use output_signals, only: signal_watch_t
+  implicit none
+  private
+
+  public :: run_recorder_t, run_options_t
+
+  !> What the user may choose.
+  type :: run_options_t
+    character(len=:), allocatable :: deck, output   !< paths
+    logical :: overwrite = .true.
+    logical :: progress = .true.
+    integer :: level = log_normal                   !< one of `log_*`
+  end type run_options_t
+
+  type, extends(recorder_t) :: run_recorder_t
+    private
+    character(len=:), allocatable :: path
+    type(result_file_t) :: file
+    type(run_log_t) :: log
+    type(signal_watch_t) :: signals
+  contains
+    procedure :: open => open_recorder
+    procedure :: close => close_recorder
+    procedure :: begin
+    procedure :: iteration
+    procedure :: remark
+    procedure :: step
+    procedure :: finish
+    procedure :: interrupted
+  end type run_recorder_t
+
+contains
+
+  !> Start the result file and the log.
+  subroutine open_recorder(self, options, model, error)
+    class(run_recorder_t), intent(inout) :: self
+    type(run_options_t), intent(in) :: options
+    type(model_t), intent(in) :: model
+    type(error_t), allocatable, intent(out) :: error
+
+    self%path = options%output
+    call self%signals%start()
+    call self%file%open(options%output, options%overwrite, model, error)
+    if (allocated(error)) return
+    call self%log%open(options%level, options%progress, options%deck, model)
+  end subroutine open_recorder
+
+  !> End the result file and print the summary.
+  subroutine close_recorder(self, complete, error)
+    class(run_recorder_t), intent(inout) :: self
+    logical, intent(in) :: complete   !< the run came to its end
+    type(error_t), allocatable, intent(out) :: error
+    logical :: kept
+
+    call self%file%close(complete, kept, error)
+    if (kept) then
+      call self%log%close(self%path)
+    else
+      call self%log%close("")
+    end if
+  end subroutine close_recorder
+
+  subroutine begin(self, number, analysis, error)
+    class(run_recorder_t), intent(inout) :: self
+    integer, intent(in) :: number
+    type(analysis_t), intent(in) :: analysis
+    type(error_t), allocatable, intent(out) :: error
+
+    call self%log%begin(number, analysis)
+    call self%file%begin(number, analysis, error)
+  end subroutine begin
+
+  subroutine iteration(self, iteration)
+    class(run_recorder_t), intent(inout) :: self
+    type(iteration_t), intent(in) :: iteration
+
+    call self%log%iteration(iteration)
+  end subroutine iteration
+
+  subroutine remark(self, text)
+    class(run_recorder_t), intent(inout) :: self
+    character(len=*), intent(in) :: text
+
+    call self%log%remark(text)
+  end subroutine remark
+
+  subroutine step(self, step, results, error)
+    class(run_recorder_t), intent(inout) :: self
+    type(step_t), intent(in) :: step
+    type(results_t), intent(in) :: results
+    type(error_t), allocatable, intent(out) :: error
+
+    call self%file%step(step, results, error)
+    if (.not. allocated(error)) call self%log%step(step, results)
+  end subroutine step
+
+  subroutine finish(self, complete, error)
+    class(run_recorder_t), intent(inout) :: self
+    logical, intent(in) :: complete
+    type(error_t), allocatable, intent(out) :: error
+
+    call self%log%finish(complete)
+    call self%file%finish(complete, error)
+  end subroutine finish
+
+  logical function interrupted(self)
+    class(run_recorder_t), intent(inout) :: self
+
+    interrupted = self%signals%raised()
+  end function interrupted
+
+end module output_recorder

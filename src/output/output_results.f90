@@ -1,0 +1,302 @@
+!> The result file: OUT.h5.part while the run goes on, OUT.h5 once it has ended.
+module output_results
+  use kinds, only: i8
+  use errors, only: error_t, fail, exit_io
+  use model_data, only: model_t, analysis_t, name_length
+  use program_version, only: program_name, version
+  use recorder, only: step_t
+  use system_results, only: results_t, result_modes
+  use output_files, only: file_exists, folder_exists, check_writable, rename_file, remove_file
+  use output_hdf5, only: hdf5_file_t, about_t
+  use output_tables, only: table_t
+  use output_model, only: write_deck, write_model
+  implicit none
+  private
+
+  public :: result_file_t
+
+  integer, parameter :: layout_version = 1
+  character(len=*), parameter :: kind_names(1) = ["static"]
+
+  integer, parameter :: load_factor = 1, displacement = 2, euler = 3, warping = 4, reaction = 5, &
+                        load = 6, strain = 7, stress = 8, force_p = 9, force_q = 10, &
+                        residual = 11, increment = 12, constraint = 13, reals = 13
+  integer, parameter :: step_number = 1, iterations = 2, cutbacks = 3, wholes = 3
+
+  type :: result_file_t
+    private
+    type(hdf5_file_t) :: file
+    character(len=:), allocatable :: path
+    character(len=name_length), allocatable :: marker(:)
+    integer :: nodes = 0, members = 0
+    integer :: steps = 0                        !< kept so far, in all analyses
+    character(len=:), allocatable :: group      !< of the present analysis
+    type(table_t) :: real_table(reals), whole_table(wholes)
+    type(table_t), allocatable :: marker_table(:)
+  contains
+    procedure :: open => open_results
+    procedure :: begin => begin_analysis
+    procedure :: step => keep_step
+    procedure :: finish => finish_analysis
+    procedure :: close => close_results
+  end type result_file_t
+
+contains
+
+  !> Start the file with the model; nothing is left of it after an error.
+  subroutine open_results(self, path, overwrite, model, error)
+    class(result_file_t), intent(inout) :: self
+    character(len=*), intent(in) :: path
+    logical, intent(in) :: overwrite   !< else an existing file is an error
+    type(model_t), intent(in) :: model
+    type(error_t), allocatable, intent(out) :: error
+
+    self%path = path
+    if (.not. overwrite .and. file_exists(path)) then
+      call fail(error, exit_io, "'"//path//"' exists and --no-overwrite is given")
+    else if (folder_exists(path)) then
+      call fail(error, exit_io, "cannot write '"//path//"': it is a folder")
+    else
+      call check_writable(partial(self), error)
+    end if
+    if (allocated(error)) return
+    self%nodes = size(model%node)
+    self%members = size(model%member)
+    self%marker = model%marker%name
+    call self%file%create(partial(self), error)
+    if (.not. allocated(error)) then
+      call write_head(self%file, model)
+      call write_deck(self%file, model)
+      call write_model(self%file, model)
+      call self%file%group("analysis")
+      call self%file%flush(error)
+    end if
+    if (allocated(error)) call discard(self)
+  end subroutine open_results
+
+  !> Where the file stands until it is complete.
+  pure function partial(self)
+    type(result_file_t), intent(in) :: self
+    character(len=:), allocatable :: partial
+
+    partial = self%path//".part"
+  end function partial
+
+  subroutine write_head(file, model)
+    type(hdf5_file_t), intent(inout) :: file
+    type(model_t), intent(in) :: model
+
+    call file%set_text("/", "program", program_name)
+    call file%set_text("/", "version", version)
+    call file%set_number("/", "layout_version", layout_version)
+    call file%set_text("/", "title", model%title)
+    call file%set_number("/", "complete", 0)
+  end subroutine write_head
+
+  !> Make the group of an analysis with its empty datasets.
+  subroutine begin_analysis(self, number, analysis, error)
+    class(result_file_t), intent(inout) :: self
+    integer, intent(in) :: number
+    type(analysis_t), intent(in) :: analysis
+    type(error_t), allocatable, intent(out) :: error
+    character(len=12) :: digits
+
+    write (digits, "(i0.2)") number
+    self%group = "analysis/"//trim(digits)//"_"//trim(kind_names(analysis%kind))
+    if (analysis%name /= "") &
+      self%group = "analysis/"//trim(digits)//"_"//link_name(trim(analysis%name))
+    call self%file%group(self%group)
+    call self%file%set_text(self%group, "kind", trim(kind_names(analysis%kind)))
+    call self%file%set_number(self%group, "complete", 0)
+    call start_steps(self, int(analysis%steps, i8))
+    call start_nodes(self, int(analysis%steps, i8))
+    call start_markers(self, int(analysis%steps, i8))
+    call start_elements(self, int(analysis%steps, i8))
+    call start_convergence(self, int(analysis%steps, i8))
+    call self%file%flush(error)
+  end subroutine begin_analysis
+
+  !> A name as it may stand in a path.
+  pure function link_name(name)
+    character(len=*), intent(in) :: name
+    character(len=len(name)) :: link_name
+    integer :: i
+
+    link_name = name
+    do i = 1, len(name)
+      if (name(i:i) == "/") link_name(i:i) = "_"
+    end do
+    if (link_name == "." .or. link_name == "..") link_name = repeat("_", len(name))
+  end function link_name
+
+  subroutine start_steps(self, steps)
+    type(result_file_t), intent(inout) :: self
+    integer(i8), intent(in) :: steps
+
+    call self%whole_table(step_number)%start_integers(self%file, self%group//"/step", steps, &
+      about_t("1", "step", "number of the recorded step, from 1"))
+    call self%real_table(load_factor)%start_reals(self%file, self%group//"/load_factor", steps, &
+      about_t("1", "step", "factor of the load pattern"))
+  end subroutine start_steps
+
+  subroutine start_nodes(self, steps)
+    type(result_file_t), intent(inout) :: self
+    integer(i8), intent(in) :: steps
+    character(len=*), parameter :: of_all = "step*node; X Y Z RX RY RZ W", &
+                                   dual = "F F F FL FL FL FL2"
+
+    call self%file%group(self%group//"/nodes")
+    call start_table(self, displacement, "nodes/displacement", steps*self%nodes, 3, &
+      about_t("L", "step*node; X Y Z", "from the initial position"))
+    call start_table(self, euler, "nodes/euler", steps*self%nodes, 4, &
+      about_t("1", "step*node; e0 e1 e2 e3", "Euler parameters of the rotation, scalar first"))
+    call self%real_table(warping)%start_reals(self%file, self%group//"/nodes/warping", &
+      steps*self%nodes, about_t("L-1", "step*node", "warping coordinate, a rate of twist"))
+    call start_table(self, reaction, "nodes/reaction", steps*self%nodes, 7, &
+      about_t(dual, of_all, "forces, moments, bimoment of supports, 0 where nothing is fixed"))
+    call start_table(self, load, "nodes/load", steps*self%nodes, 7, &
+      about_t(dual, of_all, "forces, moments, bimoment applied"))
+  end subroutine start_nodes
+
+  subroutine start_markers(self, steps)
+    type(result_file_t), intent(inout) :: self
+    integer(i8), intent(in) :: steps
+    integer :: i
+
+    if (.not. allocated(self%marker_table)) allocate (self%marker_table(size(self%marker)))
+    if (size(self%marker) == 0) return
+    call self%file%group(self%group//"/markers")
+    do i = 1, size(self%marker)
+      call self%marker_table(i)%start_reals(self%file, &
+        self%group//"/markers/"//link_name(trim(self%marker(i))), steps, &
+        about_t("L", "step; X Y Z", "displacement of the marker"), 3)
+    end do
+  end subroutine start_markers
+
+  subroutine start_elements(self, steps)
+    type(result_file_t), intent(inout) :: self
+    integer(i8), intent(in) :: steps
+    character(len=*), parameter :: forces = "step*element; N Vy Vz T My Mz B"
+
+    call self%file%group(self%group//"/elements")
+    call start_table(self, strain, "elements/strain", steps*self%members, result_modes, &
+      about_t("L", "step*element; mode 1 to 8", "generalized strains"))
+    call start_table(self, stress, "elements/stress", steps*self%members, result_modes, &
+      about_t("F", "step*element; mode 1 to 8", "stress resultants of the strains"))
+    call start_table(self, force_p, "elements/section_force_p", steps*self%members, 7, &
+      about_t("F F F FL FL FL FL2", forces, "in the section at end p, positive face, its axes"))
+    call start_table(self, force_q, "elements/section_force_q", steps*self%members, 7, &
+      about_t("F F F FL FL FL FL2", forces, "in the section at end q, positive face, its axes"))
+  end subroutine start_elements
+
+  subroutine start_convergence(self, steps)
+    type(result_file_t), intent(inout) :: self
+    integer(i8), intent(in) :: steps
+    character(len=:), allocatable :: group
+
+    group = self%group//"/convergence"
+    call self%file%group(group)
+    call self%whole_table(iterations)%start_integers(self%file, group//"/iterations", steps, &
+      about_t("1", "step", "Newton iterations, those of cut-backs included"))
+    call self%whole_table(cutbacks)%start_integers(self%file, group//"/cutbacks", steps, &
+      about_t("1", "step", "times the increment was halved"))
+    call self%real_table(residual)%start_reals(self%file, group//"/residual", steps, &
+      about_t("1", "step", "largest unbalanced force, relative to the forces"))
+    call self%real_table(increment)%start_reals(self%file, group//"/increment", steps, &
+      about_t("1", "step", "largest change in the last iteration, relative to the motion"))
+    call self%real_table(constraint)%start_reals(self%file, group//"/constraint", steps, &
+      about_t("1", "step", "largest fixed strain, relative to the model's length"))
+  end subroutine start_convergence
+
+  subroutine start_table(self, which, name, rows, columns, about)
+    type(result_file_t), intent(inout) :: self
+    integer, intent(in) :: which, columns
+    integer(i8), intent(in) :: rows
+    character(len=*), intent(in) :: name
+    type(about_t), intent(in) :: about
+
+    call self%real_table(which)%start_reals(self%file, self%group//"/"//name, rows, about, columns)
+  end subroutine start_table
+
+  !> Add a converged step and flush.
+  subroutine keep_step(self, step, results, error)
+    class(result_file_t), intent(inout) :: self
+    type(step_t), intent(in) :: step
+    type(results_t), intent(in) :: results
+    type(error_t), allocatable, intent(out) :: error
+    integer :: i
+
+    associate (file => self%file, table => self%real_table, whole => self%whole_table)
+      call whole(step_number)%append(file, step%step)
+      call whole(iterations)%append(file, step%iterations)
+      call whole(cutbacks)%append(file, step%cutbacks)
+      call table(load_factor)%append(file, step%factor)
+      call table(residual)%append(file, step%last%residual)
+      call table(increment)%append(file, step%last%increment)
+      call table(constraint)%append(file, step%last%constraint)
+      call table(displacement)%append(file, results%displacement)
+      call table(euler)%append(file, results%euler)
+      call table(warping)%append(file, results%warping)
+      call table(reaction)%append(file, results%reaction)
+      call table(load)%append(file, results%load)
+      call table(strain)%append(file, results%strain)
+      call table(stress)%append(file, results%stress)
+      call table(force_p)%append(file, results%force_p)
+      call table(force_q)%append(file, results%force_q)
+      do i = 1, size(self%marker)
+        call self%marker_table(i)%append(file, results%marker(:, i:i))
+      end do
+      call file%flush(error)
+    end associate
+    if (.not. allocated(error)) self%steps = self%steps + 1
+  end subroutine keep_step
+
+  !> Close the datasets of the analysis.
+  subroutine finish_analysis(self, complete, error)
+    class(result_file_t), intent(inout) :: self
+    logical, intent(in) :: complete
+    type(error_t), allocatable, intent(out) :: error
+    integer :: i
+
+    do i = 1, reals
+      call self%real_table(i)%finish(self%file)
+    end do
+    do i = 1, wholes
+      call self%whole_table(i)%finish(self%file)
+    end do
+    do i = 1, size(self%marker)
+      call self%marker_table(i)%finish(self%file)
+    end do
+    if (complete) call self%file%set_number(self%group, "complete", 1)
+    call self%file%flush(error)
+  end subroutine finish_analysis
+
+  !> Close the file and give it its name, if it holds anything and was written without error.
+  subroutine close_results(self, complete, kept, error)
+    class(result_file_t), intent(inout) :: self
+    logical, intent(in) :: complete   !< the run came to its end
+    logical, intent(out) :: kept      !< the result file exists
+    type(error_t), allocatable, intent(out) :: error
+
+    kept = .false.
+    if (self%steps == 0 .and. .not. complete) then
+      call discard(self)
+      return
+    end if
+    if (complete) call self%file%set_number("/", "complete", 1)
+    call self%file%close(error)
+    if (.not. allocated(error)) call rename_file(partial(self), self%path, error)
+    kept = .not. allocated(error)
+    if (.not. kept) call discard(self)
+  end subroutine close_results
+
+  !> Remove what was written.
+  subroutine discard(self)
+    type(result_file_t), intent(inout) :: self
+    type(error_t), allocatable :: error
+
+    call self%file%close(error)
+    call remove_file(partial(self))
+  end subroutine discard
+
+end module output_results

@@ -1,0 +1,174 @@
+!> Datasets that grow by rows while an analysis runs.
+module output_tables
+  use, intrinsic :: iso_c_binding, only: c_ptr, c_loc
+  use hdf5, only: hid_t, hsize_t, h5pcreate_f, h5pclose_f, h5pset_obj_track_times_f, &
+                  h5pset_chunk_f, h5screate_simple_f, h5sclose_f, h5sselect_hyperslab_f, &
+                  h5dcreate_f, h5dset_extent_f, h5dget_space_f, h5dwrite_f, h5dclose_f, &
+                  h5p_dataset_create_f, h5s_select_set_f, h5s_unlimited_f, h5t_native_double, &
+                  h5t_native_integer, h5t_ieee_f64le, h5t_std_i32le
+  use kinds, only: wp, i8
+  use output_hdf5, only: hdf5_file_t, about_t
+  implicit none
+  private
+
+  public :: table_t
+
+  integer, parameter :: bytes_of_real = 8
+  integer(hsize_t), parameter :: piece = 32768   !< bytes by which a dataset grows, at most
+
+  type :: table_t
+    private
+    integer(hid_t) :: dataset = 0
+    integer :: rank = 1
+    integer(hsize_t) :: columns = 1
+    integer(hsize_t) :: rows = 0
+  contains
+    procedure :: start_integers
+    procedure :: start_reals
+    procedure, private :: append_integer, append_real, append_reals, append_real_table
+    generic :: append => append_integer, append_real, append_reals, append_real_table
+    procedure :: finish
+  end type table_t
+
+contains
+
+  !> A list of whole numbers; about `rows` are expected.
+  subroutine start_integers(self, file, path, rows, about)
+    class(table_t), intent(out) :: self
+    type(hdf5_file_t), intent(inout) :: file
+    character(len=*), intent(in) :: path
+    integer(i8), intent(in) :: rows
+    type(about_t), intent(in) :: about
+
+    call start(self, file, path, h5t_std_i32le, rows, about)
+  end subroutine start_integers
+
+  !> A list of reals or, with `columns`, a table; about `rows` rows are expected.
+  subroutine start_reals(self, file, path, rows, about, columns)
+    class(table_t), intent(out) :: self
+    type(hdf5_file_t), intent(inout) :: file
+    character(len=*), intent(in) :: path
+    integer(i8), intent(in) :: rows
+    type(about_t), intent(in) :: about
+    integer, intent(in), optional :: columns
+
+    if (present(columns)) then
+      self%rank = 2
+      self%columns = columns
+    end if
+    call start(self, file, path, h5t_ieee_f64le, rows, about)
+  end subroutine start_reals
+
+  subroutine start(self, file, path, type, rows, about)
+    type(table_t), intent(inout) :: self
+    type(hdf5_file_t), intent(inout) :: file
+    character(len=*), intent(in) :: path
+    integer(hid_t), intent(in) :: type
+    integer(i8), intent(in) :: rows
+    type(about_t), intent(in) :: about
+    integer(hsize_t) :: chunk(2), largest(2)
+    integer(hid_t) :: list, space
+    integer :: status
+
+    if (allocated(file%failure)) return
+    chunk = [self%columns, max(1_hsize_t, min(rows, piece/(bytes_of_real*self%columns)))]
+    largest = [self%columns, h5s_unlimited_f]
+    call h5pcreate_f(h5p_dataset_create_f, list, status)
+    call h5pset_obj_track_times_f(list, .false., status)
+    call file%check(status, "h5pset_obj_track_times_f")
+    call h5pset_chunk_f(list, self%rank, chunk(3 - self%rank:), status)
+    call file%check(status, "h5pset_chunk_f")
+    associate (extents => [self%columns, 0_hsize_t])
+      call h5screate_simple_f(self%rank, extents(3 - self%rank:), space, status, &
+                              largest(3 - self%rank:))
+    end associate
+    call file%check(status, "h5screate_simple_f")
+    call h5dcreate_f(file%id, path, type, space, self%dataset, status, dcpl_id=list)
+    call file%check(status, "h5dcreate_f")
+    call h5sclose_f(space, status)
+    call h5pclose_f(list, status)
+    if (.not. allocated(file%failure)) call file%describe(self%dataset, about)
+  end subroutine start
+
+  subroutine append_integer(self, file, value)
+    class(table_t), intent(inout) :: self
+    type(hdf5_file_t), intent(inout) :: file
+    integer, intent(in) :: value
+    integer, target :: buffer
+
+    buffer = value
+    call append_rows(self, file, h5t_native_integer, 1, c_loc(buffer))
+  end subroutine append_integer
+
+  subroutine append_real(self, file, value)
+    class(table_t), intent(inout) :: self
+    type(hdf5_file_t), intent(inout) :: file
+    real(wp), intent(in) :: value
+    real(wp), target :: buffer
+
+    buffer = value
+    call append_rows(self, file, h5t_native_double, 1, c_loc(buffer))
+  end subroutine append_real
+
+  !> Rows of a list.
+  subroutine append_reals(self, file, values)
+    class(table_t), intent(inout) :: self
+    type(hdf5_file_t), intent(inout) :: file
+    real(wp), intent(in), contiguous, target :: values(:)
+
+    call append_rows(self, file, h5t_native_double, size(values), c_loc(values))
+  end subroutine append_reals
+
+  !> Rows of a table.
+  subroutine append_real_table(self, file, values)
+    class(table_t), intent(inout) :: self
+    type(hdf5_file_t), intent(inout) :: file
+    real(wp), intent(in), contiguous, target :: values(:, :)   !< (columns, rows)
+
+    call append_rows(self, file, h5t_native_double, size(values, 2), c_loc(values))
+  end subroutine append_real_table
+
+  subroutine append_rows(self, file, given, rows, values)
+    type(table_t), intent(inout) :: self
+    type(hdf5_file_t), intent(inout) :: file
+    integer(hid_t), intent(in) :: given   !< type in memory
+    integer, intent(in) :: rows
+    type(c_ptr), intent(in) :: values
+    integer(hsize_t) :: first(2), added(2)
+    integer(hid_t) :: in_memory, in_file
+    integer :: status, k
+
+    if (allocated(file%failure) .or. rows == 0) return
+    k = 3 - self%rank
+    first = [0_hsize_t, self%rows]
+    added = [self%columns, int(rows, hsize_t)]
+    self%rows = self%rows + rows
+    associate (extents => first + added)
+      call h5dset_extent_f(self%dataset, extents(k:), status)
+    end associate
+    call file%check(status, "h5dset_extent_f")
+    call h5dget_space_f(self%dataset, in_file, status)
+    call file%check(status, "h5dget_space_f")
+    call h5sselect_hyperslab_f(in_file, h5s_select_set_f, first(k:), added(k:), status)
+    call file%check(status, "h5sselect_hyperslab_f")
+    call h5screate_simple_f(self%rank, added(k:), in_memory, status)
+    call file%check(status, "h5screate_simple_f")
+    if (.not. allocated(file%failure)) call h5dwrite_f(self%dataset, given, values, status, &
+                                                       in_memory, in_file)
+    call file%check(status, "h5dwrite_f")
+    call h5sclose_f(in_memory, status)
+    call h5sclose_f(in_file, status)
+  end subroutine append_rows
+
+  !> Close the dataset.
+  subroutine finish(self, file)
+    class(table_t), intent(inout) :: self
+    type(hdf5_file_t), intent(inout) :: file
+    integer :: status
+
+    if (allocated(file%failure)) return
+    call h5dclose_f(self%dataset, status)
+    call file%check(status, "h5dclose_f")
+  end subroutine finish
+
+end module output_tables

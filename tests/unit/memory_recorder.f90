@@ -1,0 +1,133 @@
+!> A recorder that keeps everything in memory, and a deck run with it.
+module memory_recorder
+  use kinds, only: wp
+  use errors, only: error_t
+  use model_data, only: model_t, analysis_t, setting_t
+  use diagnostics, only: report_t
+  use deck_reader, only: read_deck
+  use recorder, only: recorder_t, iteration_t, step_t
+  use system_results, only: results_t
+  use analysis_run, only: run_analyses
+  use text, only: string_t
+  implicit none
+  private
+
+  public :: memory_t, run_deck
+
+  type, extends(recorder_t) :: memory_t
+    integer :: steps = 0
+    integer :: iterations = 0
+    integer :: stop_after = huge(1)           !< say "interrupted" after so many iterations
+    type(step_t), allocatable :: record(:)
+    type(results_t), allocatable :: results(:)
+    type(string_t), allocatable :: remarks(:)
+    logical, allocatable :: completed(:)      !< by analysis
+  contains
+    procedure :: begin => memory_begin
+    procedure :: iteration => memory_iteration
+    procedure :: remark => memory_remark
+    procedure :: step => memory_step
+    procedure :: finish => memory_finish
+    procedure :: interrupted => memory_interrupted
+  end type memory_t
+
+contains
+
+  !> Read and run a deck of tests/cases/static; `settings`: as -D "name=value".
+  subroutine run_deck(name, memory, model, error, settings)
+    character(len=*), intent(in) :: name
+    type(memory_t), intent(inout) :: memory
+    type(model_t), intent(out) :: model
+    type(error_t), allocatable, intent(out) :: error
+    character(len=*), intent(in), optional :: settings(:)
+    type(setting_t), allocatable :: override(:)
+    type(report_t) :: report
+    integer :: i, at
+
+    allocate (override(0))
+    if (present(settings)) then
+      deallocate (override)
+      allocate (override(size(settings)))
+      do i = 1, size(settings)
+        at = index(settings(i), "=")
+        override(i)%name = settings(i)(:at - 1)
+        override(i)%value = trim(settings(i)(at + 1:))
+      end do
+    end if
+    memory%steps = 0
+    if (allocated(memory%record)) deallocate (memory%record, memory%results)
+    if (allocated(memory%remarks)) deallocate (memory%remarks, memory%completed)
+    allocate (memory%record(400), memory%results(400), memory%remarks(0), memory%completed(0))
+    call read_deck("tests/cases/static/"//name//".deck", override, model, report, error)
+    if (allocated(error)) return
+    if (report%errors() > 0) then
+      call report%print(6)
+      allocate (error)
+      error%message = "errors in the deck "//name
+      return
+    end if
+    call run_analyses(model, memory, error)
+  end subroutine run_deck
+
+  subroutine memory_begin(self, number, analysis, error)
+    class(memory_t), intent(inout) :: self
+    integer, intent(in) :: number
+    type(analysis_t), intent(in) :: analysis
+    type(error_t), allocatable, intent(out) :: error
+
+    if (number /= size(self%completed) + 1 .or. analysis%steps < 1) allocate (error)
+  end subroutine memory_begin
+
+  subroutine memory_iteration(self, iteration)
+    class(memory_t), intent(inout) :: self
+    type(iteration_t), intent(in) :: iteration
+
+    if (iteration%iteration > 0) self%iterations = self%iterations + 1
+  end subroutine memory_iteration
+
+  subroutine memory_remark(self, text)
+    class(memory_t), intent(inout) :: self
+    character(len=*), intent(in) :: text
+    type(string_t), allocatable :: more(:)
+    integer :: n
+
+    n = size(self%remarks)
+    allocate (more(n + 1))
+    more(:n) = self%remarks
+    more(n + 1)%s = text
+    call move_alloc(more, self%remarks)
+  end subroutine memory_remark
+
+  subroutine memory_step(self, step, results, error)
+    class(memory_t), intent(inout) :: self
+    type(step_t), intent(in) :: step
+    type(results_t), intent(in) :: results
+    type(error_t), allocatable, intent(out) :: error
+
+    if (self%steps >= size(self%record)) then
+      allocate (error)
+      return
+    end if
+    self%steps = self%steps + 1
+    self%record(self%steps) = step
+    self%results(self%steps) = results
+  end subroutine memory_step
+
+  subroutine memory_finish(self, complete, error)
+    class(memory_t), intent(inout) :: self
+    logical, intent(in) :: complete
+    type(error_t), allocatable, intent(out) :: error
+    logical, allocatable :: all_of_them(:)
+
+    all_of_them = [self%completed, complete]
+    call move_alloc(all_of_them, self%completed)
+    if (self%steps < 0) allocate (error)
+  end subroutine memory_finish
+
+  logical function memory_interrupted(self)
+    class(memory_t), intent(inout) :: self
+
+    memory_interrupted = self%iterations >= self%stop_after
+  end function memory_interrupted
+
+end module memory_recorder
