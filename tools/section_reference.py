@@ -3,10 +3,10 @@
 
     tools/section_reference.py [OUT]     needs the PyPI package sectionproperties==3.10.2
 
-Five thin open sections and, for It and Iw only, a solid rectangle and a box. Each is drawn with its full corners (every plate runs on by half the thickness of the plate
-it meets at an end corner) and meshed with quadratic triangles, four to five across the thinnest
-wall. What thin-wall theory of the midline leaves out, and so the tolerances, with r the largest
-t/b of a plate and of the section:
+Five thin open sections and, for It and Iw only, a solid rectangle and a box. Each is drawn with
+its full corners (every plate runs on by half the thickness of the plate it meets at an end corner)
+and meshed with quadratic triangles, some four across the thinnest wall. What thin-wall theory of
+the midline leaves out, and so the tolerances, with r the largest t/b of a plate and of the section:
 
     A            the overlap tw t/2 at a tee, nothing at a corner (1e-6 for the mesh)
     Iy, Iz       t**3/12 of each wall and the corners' shift: (t/b)**2, up to r**2
@@ -111,7 +111,8 @@ def tolerances(points, plates, thickness):
         met = sorted(t for p, t in zip(plates, thickness) if k in p)
         if len(met) == 3:
             overlap += met[0] * met[1] / 2
-    return {"A": 1.02 * overlap / area + 1e-6, "I": r ** 2, "It": r, "Iw": 4 * r ** 2, "shear_centre": r ** 2}
+    return {"A": overlap / (area - overlap) + 1e-6, "I": r ** 2, "It": r, "Iw": 4 * r ** 2,
+            "shear_centre": r ** 2}
 
 
 def rounded(value):
@@ -135,8 +136,8 @@ def main(arguments):
     cells = ",\n".join(json.dumps(rounded({"name": name, **solve_cell(*sizes)}))
                        for name, sizes in CELLS.items())
     out.write_text('{"about": "finite elements, sectionproperties ' + VERSION
-                   + '; see tools/section_reference.py",\n"sections": [\n' + lines + "],\n\"cells\": [\n" + cells + "]}\n",
-                   encoding="utf-8")
+                   + '; see tools/section_reference.py",\n"sections": [\n' + lines
+                   + '],\n"cells": [\n' + cells + "]}\n", encoding="utf-8")
 
 
 if __name__ == "__main__":

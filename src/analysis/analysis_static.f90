@@ -1,12 +1,13 @@
-!> STATIC with CONTROL LOAD: equilibrium at equal steps of the load factor.
+!> STATIC with CONTROL LOAD or DISPLACEMENT: equilibrium at equal steps of the load factor or of a
+!> displacement.
 !>
-!> Between two recorded steps the increment of the factor is halved where Newton fails and doubled
-!> where it was easy.
+!> Between two recorded steps the increment is halved where Newton fails and doubled where it was
+!> easy.
 module analysis_static
   use kinds, only: wp
   use errors, only: error_t, fail, exit_solve, exit_interrupt
   use text, only: to_text, plural
-  use model_data, only: model_t, analysis_t
+  use model_data, only: model_t, analysis_t, control_load, control_displacement
   use nodal_state, only: state_t
   use linalg_solver, only: solver_t
   use system_data, only: system_t
@@ -15,26 +16,27 @@ module analysis_static
   use system_results, only: results_t, get_results
   use newton_method, only: newton_t, newton_outcome_t, find_equilibrium, newton_converged, &
                            newton_slow, newton_distorted, newton_interrupted
+  use path_control, only: control_t
+  use system_measure, only: new_measure
   use recorder, only: recorder_t, step_t, iteration_t
   implicit none
   private
 
   public :: run_static
 
-  integer, parameter :: most_halvings = 10  !< of a step before it is given up
+  integer, parameter :: finest = 2**10      !< parts a step is cut into before it is given up
   integer, parameter :: easy = 6            !< iterations up to which an increment was easy
 
   !> A state to come back to.
   type :: safe_t
     type(state_t) :: state
-    real(wp), allocatable :: stress(:)
-    real(wp) :: factor = 0.0_wp
+    real(wp), allocatable :: stress(:), level(:)
   end type safe_t
 
 contains
 
-  !> Ramp the analysis' pattern from where its factor stands; `level` holds the factors of all
-  !> patterns and is left at what was reached.
+  !> Take the analysis' load factor, or the displacement it controls, from where it stands to its end
+  !> in equal steps; `level` holds the factors of all patterns and is left at what was reached.
   subroutine run_static(model, system, solver, analysis, level, iterate, recorder, error)
     type(model_t), intent(in) :: model
     type(system_t), intent(in) :: system
@@ -45,30 +47,62 @@ contains
     class(recorder_t), intent(inout) :: recorder
     type(error_t), allocatable, intent(out) :: error
     type(results_t) :: results
+    type(control_t) :: control
     type(step_t) :: record
-    real(wp) :: start
+    real(wp) :: start, end
     integer :: step
 
-    start = 0
-    if (analysis%pattern > 0) start = level(analysis%pattern)
+    control = new_control(model, analysis)
+    start = parameter_value(control, level, iterate)
+    end = analysis%factor
+    if (control%kind == control_displacement) end = analysis%controlled%value
     do step = 1, analysis%steps
       record = step_t(step=step)
-      record%factor = start + (analysis%factor - start)*step/analysis%steps
-      call reach(model, system, solver, analysis, level, iterate, recorder, record, error)
+      call reach(model, system, solver, analysis, control, start + (end - start)*step/analysis%steps, &
+                 level, iterate, recorder, record, error)
       if (.not. allocated(error)) call check_dropped(model, system, iterate, error)
       if (allocated(error)) return
+      if (analysis%pattern > 0) record%factor = level(analysis%pattern)
       call get_results(model, system, iterate, results)
       call recorder%step(record, results, error)
       if (allocated(error)) return
     end do
   end subroutine run_static
 
-  !> Go to the factor of a record, in one increment or several.
-  subroutine reach(model, system, solver, analysis, level, iterate, recorder, record, error)
+  pure function new_control(model, analysis) result(control)
+    type(model_t), intent(in) :: model
+    type(analysis_t), intent(in) :: analysis
+    type(control_t) :: control
+
+    control%kind = analysis%control
+    control%pattern = analysis%pattern
+    if (control%kind == control_displacement) control%measure = new_measure(model, analysis%controlled)
+  end function new_control
+
+  !> What the steps count: the load factor or the controlled displacement.
+  pure function parameter_value(control, level, iterate) result(value)
+    type(control_t), intent(in) :: control
+    real(wp), intent(in) :: level(:)
+    type(iterate_t), intent(in) :: iterate
+    real(wp) :: value
+
+    value = 0
+    if (control%kind == control_displacement) then
+      value = control%measure%value(iterate%state)
+    else if (control%pattern > 0) then
+      value = level(control%pattern)
+    end if
+  end function parameter_value
+
+  !> Go to a value of the parameter, in one increment or several.
+  subroutine reach(model, system, solver, analysis, control, goal, level, iterate, recorder, record, &
+                   error)
     type(model_t), intent(in) :: model
     type(system_t), intent(in) :: system
     type(solver_t), intent(inout) :: solver
     type(analysis_t), intent(in) :: analysis
+    type(control_t), intent(inout) :: control
+    real(wp), intent(in) :: goal
     real(wp), intent(inout) :: level(:)
     type(iterate_t), intent(inout) :: iterate
     class(recorder_t), intent(inout) :: recorder
@@ -76,74 +110,74 @@ contains
     type(error_t), allocatable, intent(out) :: error
     type(newton_outcome_t) :: outcome
     type(safe_t) :: safe
-    real(wp) :: whole, share
-    integer :: left
+    real(wp) :: whole
+    integer :: left, share
 
-    allocate (safe%stress(size(iterate%stress)))
-    safe%factor = record%factor
-    if (analysis%pattern > 0) safe%factor = level(analysis%pattern)
-    whole = record%factor - safe%factor
-    left = 2**most_halvings  ! of the whole step, in its smallest parts
-    share = 1
+    allocate (safe%stress(size(iterate%stress)), safe%level(size(level)))
+    whole = goal - parameter_value(control, level, iterate)
+    left = finest
+    share = finest
     do while (left > 0)
       safe%state = iterate%state
       safe%stress = iterate%stress
-      associate (target => record%factor - whole*(left - nint(share*2**most_halvings))/2**most_halvings)
-        if (analysis%pattern > 0) level(analysis%pattern) = target
-        call find_equilibrium(system, solver, newton_options(analysis), level, &
-                              iteration_t(step=record%step, factor=target), iterate, recorder, &
-                              outcome, error)
-      end associate
+      safe%level = level
+      control%target = goal - whole*(left - share)/finest
+      if (control%kind == control_load .and. control%pattern > 0) &
+        level(control%pattern) = control%target
+      call find_equilibrium(system, solver, newton_options(analysis), control, level, &
+                            iteration_t(step=record%step, factor=control%target), iterate, recorder, &
+                            outcome, error)
       record%iterations = record%iterations + outcome%last%iteration
       if (allocated(error)) return
       if (outcome%status == newton_converged) then
-        left = left - nint(share*2**most_halvings)
+        left = left - share
         if (outcome%last%iteration <= easy) share = 2*share
-        share = min(share, real(left, wp)/2**most_halvings)
+        share = min(share, left)
         cycle
       end if
-      call give_way(model, system, analysis, level, iterate, safe, left, whole, record, outcome, &
+      iterate%state = safe%state
+      iterate%stress = safe%stress
+      level = safe%level
+      call give_way(model, system, analysis, goal - whole*left/finest, whole/finest, record, outcome, &
                     recorder, share, error)
       if (allocated(error)) return
     end do
     record%last = outcome%last
   end subroutine reach
 
-  !> After a failure: back to the safe state with half the increment, or the end.
-  subroutine give_way(model, system, analysis, level, iterate, safe, left, whole, record, outcome, &
-                      recorder, share, error)
+  !> After a failure: half the increment, or the end.
+  subroutine give_way(model, system, analysis, reached, unit, record, outcome, recorder, share, error)
     type(model_t), intent(in) :: model
     type(system_t), intent(in) :: system
     type(analysis_t), intent(in) :: analysis
-    real(wp), intent(inout) :: level(:)
-    type(iterate_t), intent(inout) :: iterate
-    type(safe_t), intent(in) :: safe
-    integer, intent(in) :: left
-    real(wp), intent(in) :: whole
+    real(wp), intent(in) :: reached, unit
     type(step_t), intent(inout) :: record
     type(newton_outcome_t), intent(in) :: outcome
     class(recorder_t), intent(inout) :: recorder
-    real(wp), intent(inout) :: share
+    integer, intent(inout) :: share
     type(error_t), allocatable, intent(out) :: error
-    real(wp) :: reached
 
-    iterate%state = safe%state
-    iterate%stress = safe%stress
-    reached = record%factor - whole*left/2**most_halvings
-    if (analysis%pattern > 0) level(analysis%pattern) = reached
     if (outcome%status == newton_interrupted) then
       call fail(error, exit_interrupt, "interrupted in step "//to_text(record%step)//" of "// &
                 to_text(analysis%steps)//"; the converged steps are kept")
-    else if (share*2**most_halvings < 1.5_wp .or. analysis%pattern == 0) then
+    else if (share == 1 .or. analysis%pattern == 0) then
       call fail(error, exit_solve, failure(model, system, analysis, reached, record, outcome))
     else
       record%cutbacks = record%cutbacks + 1
       share = share/2
-      call recorder%remark("step "//to_text(record%step)//": increment of the load factor halved to "// &
-                           to_text(share*whole)//" at "//to_text(reached)//", "// &
-                           reason(model, outcome))
+      call recorder%remark("step "//to_text(record%step)//": increment halved to "// &
+                           to_text(share*unit)//" at "//parameter_name(analysis)//" "// &
+                           to_text(reached)//", "//reason(model, outcome))
     end if
   end subroutine give_way
+
+  pure function parameter_name(analysis) result(name)
+    type(analysis_t), intent(in) :: analysis
+    character(len=:), allocatable :: name
+
+    name = "load factor"
+    if (analysis%control == control_displacement) name = "displacement"
+  end function parameter_name
 
   !> What went wrong, in one sentence: step, iteration, residual and where it is worst.
   function failure(model, system, analysis, reached, record, outcome) result(message)
@@ -156,7 +190,8 @@ contains
     character(len=:), allocatable :: message
 
     message = "no equilibrium found in step "//to_text(record%step)//" of "// &
-              to_text(analysis%steps)//" beyond load factor "//to_text(reached)//" ("// &
+              to_text(analysis%steps)//" beyond "//parameter_name(analysis)//" "// &
+              to_text(reached)//" ("// &
               plural(record%cutbacks, "cut-back")//"): "//reason(model, outcome)
     if (outcome%worst > 0) message = message//"; iteration "//to_text(outcome%last%iteration)// &
       ": largest unbalanced force "//to_text(outcome%last%residual, 3)//" of the loads at "// &

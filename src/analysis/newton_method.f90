@@ -1,13 +1,17 @@
-!> Newton in mixed form on the system with multipliers (theory 8), for one level of the loads.
+!> Newton in mixed form on the system with multipliers (theory 8), with the load factor given or
+!> found along a path.
 module newton_method
   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
   use kinds, only: wp
   use errors, only: error_t
   use nodal_state, only: state_t, node_coordinates
   use linalg_solver, only: solver_t
+  use model_data, only: control_load, control_arc
   use system_data, only: system_t
   use system_assembly, only: iterate_t, assemble, right_hand_side, advance
   use system_constraints, only: coordinate_scale
+  use system_loads, only: load_direction
+  use path_control, only: control_t, load_increment
   use recorder, only: recorder_t, iteration_t
   implicit none
   private
@@ -45,19 +49,22 @@ module newton_method
 
 contains
 
-  !> Iterate to equilibrium with the patterns at `level`. `count` holds step and factor for the
-  !> record. On return `iterate` is assembled at its state; after a failure it is to be reset.
-  subroutine find_equilibrium(system, solver, options, level, count, iterate, recorder, outcome, error)
+  !> Iterate to equilibrium. `level` holds the load factors of the patterns; that of the control's
+  !> pattern is found, unless the control is the load. `count` holds the step for the record.
+  !> On return `iterate` is assembled at its state; after a failure it is to be reset.
+  subroutine find_equilibrium(system, solver, options, control, level, count, iterate, recorder, &
+                              outcome, error)
     type(system_t), intent(in) :: system
     type(solver_t), intent(inout) :: solver
     type(newton_t), intent(in) :: options
-    real(wp), intent(in) :: level(:)
+    type(control_t), intent(inout) :: control
+    real(wp), intent(inout) :: level(:)
     type(iteration_t), intent(in) :: count
     type(iterate_t), intent(inout) :: iterate
     class(recorder_t), intent(inout) :: recorder
     type(newton_outcome_t), intent(out) :: outcome
     type(error_t), allocatable, intent(out) :: error
-    real(wp) :: solution(system%equations()), increment(system%coordinates), motion
+    real(wp) :: solution(system%equations()), increment(system%coordinates), motion, rise
     logical :: converged
 
     outcome%last = count
@@ -70,13 +77,14 @@ contains
       outcome%last%iteration = outcome%last%iteration + 1
       call solver%factorize(iterate%values, error)
       if (allocated(error)) return
-      solution = right_hand_side(system, iterate)
-      call solver%solve(solution, error)
+      call solve_on_path(system, solver, control, level, iterate, solution, rise, error)
       if (allocated(error)) return
-      call step_safely(system, solution, level, iterate, increment, outcome)
+      call step_safely(system, control, solution, rise, level, iterate, increment, outcome)
       if (outcome%status /= newton_converged) return
+      if (control%kind == control_arc) control%total = control%total + increment
       motion = largest_motion(system, iterate%state)
       outcome%last%increment = measure(system, increment)/max(motion, tiny(1.0_wp))
+      if (control%pattern > 0) outcome%last%factor = level(control%pattern)
       call judge(system, options, iterate, motion, outcome, converged)
       call recorder%iteration(outcome%last)
       if (converged .or. outcome%status /= newton_converged) return
@@ -87,28 +95,76 @@ contains
     end do
   end subroutine find_equilibrium
 
-  !> Advance and assemble; a step that turns an element too far is halved up to four times.
-  subroutine step_safely(system, solution, level, iterate, increment, outcome)
+  !> Increment of the unknowns (multipliers: new values) and the rise of the load factor with it.
+  subroutine solve_on_path(system, solver, control, level, iterate, solution, rise, error)
     type(system_t), intent(in) :: system
-    real(wp), intent(in) :: solution(:), level(:)
+    type(solver_t), intent(inout) :: solver
+    type(control_t), intent(in) :: control
+    real(wp), intent(in) :: level(:)
+    type(iterate_t), intent(in) :: iterate
+    real(wp), intent(out) :: solution(:), rise
+    type(error_t), allocatable, intent(out) :: error
+    real(wp), allocatable :: direction(:), force(:)
+    integer :: k
+
+    rise = 0
+    solution = right_hand_side(system, iterate)
+    call solver%solve(solution, error)
+    if (allocated(error) .or. control%kind == control_load) return
+    allocate (direction(size(solution)), force(system%coordinates))
+    call load_direction(system, iterate%state, level, control%pattern, force)
+    direction = 0
+    do k = 1, system%coordinates
+      if (system%unknown(k) > 0) direction(system%unknown(k)) = force(k)
+    end do
+    call solver%solve(direction, error)
+    if (allocated(error)) return
+    rise = load_increment(system, control, iterate, by_coordinate(system, solution), &
+                          by_coordinate(system, direction))
+    solution = solution + rise*direction
+  end subroutine solve_on_path
+
+  !> A solution's entries of the coordinates, zero where held.
+  pure function by_coordinate(system, solution) result(motion)
+    type(system_t), intent(in) :: system
+    real(wp), intent(in) :: solution(:)
+    real(wp) :: motion(system%coordinates)
+    integer :: k
+
+    do k = 1, system%coordinates
+      motion(k) = 0
+      if (system%unknown(k) > 0) motion(k) = solution(system%unknown(k))
+    end do
+  end function by_coordinate
+
+  !> Advance and assemble; a step that turns an element too far is halved up to four times.
+  subroutine step_safely(system, control, solution, rise, level, iterate, increment, outcome)
+    type(system_t), intent(in) :: system
+    type(control_t), intent(in) :: control
+    real(wp), intent(in) :: solution(:), rise
+    real(wp), intent(inout) :: level(:)
     type(iterate_t), intent(inout) :: iterate
     real(wp), intent(out) :: increment(:)
     type(newton_outcome_t), intent(inout) :: outcome
     type(state_t) :: state
-    real(wp) :: stress(size(system%multiplier)), share
+    real(wp) :: stress(size(system%multiplier)), share, start(size(level))
     integer :: attempt
 
     state = iterate%state
     stress = iterate%stress
+    start = level
     share = 1
     do attempt = 0, 4
       if (attempt > 0) then
         share = share/2
         iterate%state = state
         iterate%stress = stress
+        level = start
         call assemble(system, level, iterate)
       end if
       call advance(system, solution, share, iterate, increment)
+      if (control%kind /= control_load) &
+        level(control%pattern) = start(control%pattern) + share*rise
       outcome%status = newton_diverged
       if (.not. measure(system, increment) < far) return
       call assemble(system, level, iterate)

@@ -12,7 +12,7 @@ module deck_broken
   implicit none
   private
 
-  public :: mark_broken
+  public :: mark_broken, mark_all_broken
 
 contains
 
@@ -41,6 +41,18 @@ contains
       call mark_setting(card, draft)
     end select
   end subroutine mark_broken
+
+  !> Anything may have been defined in a file that could not be read.
+  subroutine mark_all_broken(draft)
+    type(draft_t), intent(inout) :: draft
+
+    draft%nodes_incomplete = .true.
+    draft%elements_incomplete = .true.
+    draft%materials%incomplete = .true.
+    draft%sections%incomplete = .true.
+    draft%functions%incomplete = .true.
+    draft%labels%incomplete = .true.
+  end subroutine mark_all_broken
 
   subroutine mark_nodes(card, draft)
     type(card_t), intent(in) :: card

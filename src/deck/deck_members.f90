@@ -10,7 +10,7 @@ module deck_members
   implicit none
   private
 
-  public :: expand_beams, set_modes, has_law
+  public :: expand_beams, set_modes
 
 contains
 
@@ -50,6 +50,8 @@ contains
     member%second = beam%second
     member%mass = beam%mass
     member%shear = beam%shear .and. shear_known(draft, member%section)
+    if (beam%shear_asked .and. .not. member%shear) call draft%report%add_error(beam%place, &
+      "SHEAR ON of element "//to_text(beam%id)//": its section has no shear rigidities DY DZ")
     member%rotary = beam%rotary
     member%rigid = beam%rigid
     start = draft%model%node(beam%node(1, 1))%position
@@ -139,7 +141,7 @@ contains
     case (record_flexible)
       call make_flexible(draft, record, beam, first, last, listed, choice%loose(i))
     case (record_release)
-      call release(draft, record, beam, first, last)
+      call release(draft, record, beam, first, last, listed)
     case default
       call give_values(draft, record, choice, i, first, last)
     end select
@@ -179,11 +181,12 @@ contains
   end subroutine make_flexible
 
   !> RLSE; of a divided element, end modes belong to one part each.
-  subroutine release(draft, record, beam, first, last)
+  subroutine release(draft, record, beam, first, last, listed)
     type(draft_t), intent(inout) :: draft
     type(record_t), intent(in) :: record
     type(beam_t), intent(in) :: beam
     integer, intent(in) :: first, last
+    logical, intent(in) :: listed(:)
     integer :: k, m
 
     do k = record%item_from, record%item_to
@@ -197,6 +200,11 @@ contains
           cycle
         end if
         do m = first, last
+          if (listed(m) .and. draft%model%member(m)%status(mode) == mode_flexible) then
+            call draft%report%add_error(draft%item(k)%place, "mode "//to_text(mode)// &
+              " of element "//to_text(beam%id)//" is made flexible by DYNE")
+            exit
+          end if
           draft%model%member(m)%status(mode) = mode_released
         end do
       end associate
@@ -255,12 +263,5 @@ contains
       end associate
     end do
   end subroutine follow_twist
-
-  !> A flexible member needs a section and material, or ESTIFF.
-  pure logical function has_law(member)
-    type(member_t), intent(in) :: member
-
-    has_law = member%has_stiffness .or. (member%section /= 0 .and. member%material /= 0)
-  end function has_law
 
 end module deck_members

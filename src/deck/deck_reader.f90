@@ -12,7 +12,7 @@ module deck_reader
   use deck_keywords, only: keywords
   use deck_form, only: find_row, match_card
   use deck_values, only: evaluate_card, read_range
-  use deck_broken, only: mark_broken
+  use deck_broken, only: mark_broken, mark_all_broken
   use deck_resolve, only: resolve_draft
   use deck_source, only: load_text, beside
   implicit none
@@ -142,7 +142,7 @@ contains
     call load_text(path, text, error)
     if (allocated(error)) then
       call draft%report%add_error(draft%include_place, error%message)
-      draft%nodes_incomplete = .true.
+      call mark_all_broken(draft)
       return
     end if
     call draft%report%add_file(path, text, file)
@@ -162,12 +162,12 @@ contains
     near = 0
     if (allocated(card%problem)) then
       call draft%report%add_error(card%problem_place, card%problem)
-      if (card%words == 0) return
+      call mark_broken(card, draft, "")
+      return
     end if
     call find_row(card, table%usage, draft%report, row, near)
     ok = row > 0
     if (ok) call match_card(card, table%usage(row), draft%report, ok)
-    ok = ok .and. .not. allocated(card%problem)
     if (ok) call check_stage(card, draft, table%keyword(row), ok)
     if (ok) call store_card(card, draft, table%keyword(row), ok)
     if (.not. ok .and. near == 0) call mark_broken(card, draft, "")

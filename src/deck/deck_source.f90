@@ -8,6 +8,7 @@ module deck_source
 
   public :: load_text, beside
 
+  character(len=*), parameter :: byte_order_mark = char(239)//char(187)//char(191)
   integer(i8), parameter :: longest = 2000000000_i8  !< bytes: places are default integers
 
 contains
@@ -42,7 +43,7 @@ contains
     if (allocated(error)) return
     if (index(text, achar(0)) > 0) &
       call fail(error, exit_io, "'"//path//"' is not a text file: it contains a NUL byte")
-    if (index(text, achar(239)//achar(187)//achar(191)) == 1) text(:3) = "   "
+    if (index(text, byte_order_mark) == 1) text = text(4:)
   end subroutine load_text
 
   !> What a file gives whose size is not known beforehand: a pipe, or nothing.

@@ -15,11 +15,11 @@ module beamw_inertia
 
   !> What depends on the element alone.
   type :: inertia_t
-    real(wp) :: triad(3, 3) = 0.0_wp  !< columns eX eY eZ, initially
-    real(wp) :: line(4, 4) = 0.0_wp   !< for r^p, d^p, r^q, d^q [M, M L, M L^2]
+    real(wp) :: triad(3, 3) = 0.0_wp    !< columns eX eY eZ, initially
+    real(wp) :: line(4, 4) = 0.0_wp     !< for r^p, d^p, r^q, d^q [M, M L, M L^2]
     real(wp) :: section(3, 3) = 0.0_wp  !< rotary inertia of an end in section axes [M L^2]
-    real(wp) :: warping = 0.0_wp      !< of an end [M L^4]
-    real(wp) :: s(3) = 0.0_wp         !< in section axes [L]
+    real(wp) :: warping = 0.0_wp        !< of an end [M L^4]
+    real(wp) :: s(3) = 0.0_wp           !< in section axes [L]
   end type inertia_t
 
   !> The ends in a configuration.

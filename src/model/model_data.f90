@@ -10,7 +10,7 @@ module model_data
   private
 
   public :: model_t, node_t, material_t, section_t, member_t, load_t, pattern_t, marker_t
-  public :: function_t, analysis_t, setting_t
+  public :: function_t, analysis_t, setting_t, target_t
 
   !> Kinds of nodes; an id names up to one of each.
   integer, parameter, public :: translational = 1, rotational = 2, warping = 3
@@ -31,6 +31,10 @@ module model_data
 
   !> Kinds of analyses.
   integer, parameter, public :: analysis_static = 1
+
+  !> What a STATIC analysis controls, and what it does about stability.
+  integer, parameter, public :: control_load = 0, control_displacement = 1, control_arc = 2
+  integer, parameter, public :: stability_off = 0, stability_on = 1, stability_required = 2
 
   integer, parameter, public :: name_length = 64  !< longest name of a material, section, ...
   integer, parameter, public :: components = 7    !< of a node: X Y Z RX RY RZ W
@@ -126,6 +130,14 @@ module model_data
     type(place_t) :: place
   end type function_t
 
+  !> A displacement of a node or marker and a value it is to take.
+  type :: target_t
+    integer :: node = 0                       !< index; 0 if a marker
+    integer :: marker = 0                     !< index in `model%marker`; 0 if a node
+    integer :: component = 0                  !< 1 to 7: X Y Z RX RY RZ W
+    real(wp) :: value = 0.0_wp                !< [L], rotations in radians, W [1/L]
+  end type target_t
+
   !> One analysis, in the order of the deck.
   type :: analysis_t
     integer :: kind = analysis_static
@@ -135,6 +147,14 @@ module model_data
     real(wp) :: factor = 1.0_wp               !< TO: load factor at the end
     real(wp) :: tolerance = 0.0_wp            !< TOL; 0: the default of the analysis
     integer :: iterations = 0                 !< MAXITER; 0: the default
+    integer :: control = control_load         !< one of `control_*`
+    type(target_t) :: controlled              !< DISPLACEMENT: what is controlled, and its end value
+    real(wp) :: first_increment = 0.0_wp      !< INITIAL: first increment of the factor, ARC; 0: TO/20
+    integer :: most_steps = 200               !< MAXSTEPS of ARC
+    logical :: stops = .false.                !< STOP given
+    type(target_t) :: stop                    !< STOP: ends where this value is passed
+    integer :: stability = stability_off      !< one of `stability_*`
+    logical :: branch = .false.               !< BRANCH ON: switch to the secondary branch
     type(place_t) :: place
   end type analysis_t
 

@@ -1,12 +1,14 @@
 !> What HDF5 and Fortran do not offer: renaming and removing files, asking for a terminal.
 module output_files
-  use, intrinsic :: iso_c_binding, only: c_int, c_char, c_null_char
+  use, intrinsic :: iso_c_binding, only: c_int, c_char, c_null_char, c_ptr, c_associated
   use errors, only: error_t, fail, exit_io
   implicit none
   private
 
-  public :: file_exists, folder_exists, check_writable, rename_file, remove_file, &
+  public :: file_exists, folder_exists, check_writable, check_unused, rename_file, remove_file, &
             error_is_terminal
+
+  integer(c_int), parameter :: lock_at_once = 6, unlock = 8   !< of flock: LOCK_EX + LOCK_NB, LOCK_UN
 
   interface
     integer(c_int) function c_rename(from, to) bind(c, name="rename")
@@ -20,6 +22,30 @@ module output_files
       implicit none
       character(kind=c_char), intent(in) :: path(*)
     end function c_remove
+
+    type(c_ptr) function c_fopen(path, mode) bind(c, name="fopen")
+      import :: c_ptr, c_char
+      implicit none
+      character(kind=c_char), intent(in) :: path(*), mode(*)
+    end function c_fopen
+
+    integer(c_int) function c_fclose(file) bind(c, name="fclose")
+      import :: c_ptr, c_int
+      implicit none
+      type(c_ptr), value :: file
+    end function c_fclose
+
+    integer(c_int) function c_fileno(file) bind(c, name="fileno")
+      import :: c_ptr, c_int
+      implicit none
+      type(c_ptr), value :: file
+    end function c_fileno
+
+    integer(c_int) function c_flock(descriptor, operation) bind(c, name="flock")
+      import :: c_int
+      implicit none
+      integer(c_int), value :: descriptor, operation
+    end function c_flock
 
     integer(c_int) function c_isatty(descriptor) bind(c, name="isatty")
       import :: c_int
@@ -57,6 +83,23 @@ contains
       call fail(error, exit_io, "cannot write '"//path//"': "//reason(trim(message)))
     end if
   end subroutine check_writable
+
+  !> Another run that writes to the same file holds a lock on it, which HDF5 makes.
+  subroutine check_unused(path, error)
+    character(len=*), intent(in) :: path   !< a file that exists
+    type(error_t), allocatable, intent(out) :: error
+    type(c_ptr) :: file
+    integer(c_int) :: status
+    logical :: used
+
+    file = c_fopen(path//c_null_char, "r"//c_null_char)
+    if (.not. c_associated(file)) return
+    used = c_flock(c_fileno(file), lock_at_once) /= 0
+    status = c_flock(c_fileno(file), unlock)
+    if (used .and. status == 0) &
+      call fail(error, exit_io, "cannot write '"//path//"': another run is writing it")
+    status = c_fclose(file)
+  end subroutine check_unused
 
   !> The system's part of a message of the Fortran library, "Cannot open file 'x': Why".
   pure function reason(message)

@@ -4,8 +4,8 @@
 !> a run of calls is checked once. Files of equal contents are equal byte by byte.
 module output_hdf5
   use, intrinsic :: iso_c_binding, only: c_ptr, c_loc, c_char, c_null_char
-  use hdf5, only: hid_t, hsize_t, size_t, h5open_f, h5close_f, h5eset_auto_f, h5fcreate_f, &
-                  h5fclose_f, h5fflush_f, h5pcreate_f, h5pclose_f, h5pset_libver_bounds_f, &
+  use hdf5, only: hid_t, hsize_t, size_t, h5dont_atexit_f, h5open_f, h5close_f, &
+                  h5eset_auto_f, h5fcreate_f, h5fclose_f, h5fflush_f, h5pcreate_f, h5pclose_f, h5pset_libver_bounds_f, &
                   h5pset_fclose_degree_f, h5pset_obj_track_times_f, h5gcreate_f, h5gclose_f, &
                   h5oopen_f, h5oclose_f, h5aexists_f, h5adelete_f, h5acreate_f, h5awrite_f, &
                   h5aclose_f, h5screate_f, h5screate_simple_f, h5sclose_f, h5dcreate_f, &
@@ -63,6 +63,7 @@ contains
     integer :: status
 
     self%path = path
+    call h5dont_atexit_f(status)
     call h5open_f(status)
     call self%check(status, "h5open_f")
     call h5eset_auto_f(0, status)
@@ -107,18 +108,19 @@ contains
     if (allocated(self%failure)) error = self%failure
   end subroutine flush_file
 
-  !> Close the file and all that is open in it; hands over the first failure.
+  !> Close the file and all that is open in it; hands over the first failure. After one HDF5 is
+  !> left alone, also at the end of the process: it would try again to write, and crash.
   subroutine close_file(self, error)
     class(hdf5_file_t), intent(inout) :: self
     type(error_t), allocatable, intent(out) :: error
     integer :: status
 
-    if (self%open) then
+    if (self%open .and. .not. allocated(self%failure)) then
       call h5fclose_f(self%id, status)
       call self%check(status, "h5fclose_f")
-      call h5close_f(status)
-      self%open = .false.
+      if (status >= 0) call h5close_f(status)
     end if
+    self%open = .false.
     if (allocated(self%failure)) error = self%failure
   end subroutine close_file
 
@@ -129,7 +131,8 @@ contains
     character(len=*), intent(in) :: routine
 
     if (status >= 0 .or. allocated(self%failure)) return
-    call fail(self%failure, exit_io, "cannot write '"//self%path//"' ("//routine//" failed)")
+    call fail(self%failure, exit_io, "cannot write '"//self%path//"' ("//routine// &
+              " failed); is the disk full?")
   end subroutine check
 
   !> Make a group; those above it exist.

@@ -18,29 +18,36 @@ contains
   subroutine write_deck(file, model)
     type(hdf5_file_t), intent(inout) :: file
     type(model_t), intent(in) :: model
-    character(len=name_length), allocatable :: name(:)
-    character(len=:), allocatable :: value(:)
     integer :: i, n, width
 
+    call file%group("deck")
+    call file%write("deck/text", model%deck, about_t("1", "", "the deck, includes expanded"))
     n = 0
     if (allocated(model%setting)) n = size(model%setting)
     width = 1
     do i = 1, n
       width = max(width, len(model%setting(i)%value))
     end do
-    allocate (name(n))
-    allocate (character(len=width) :: value(n))
+    call write_settings(file, model, n, width)
+  end subroutine write_deck
+
+  subroutine write_settings(file, model, n, width)
+    type(hdf5_file_t), intent(inout) :: file
+    type(model_t), intent(in) :: model
+    integer, intent(in) :: n, width    !< number of settings, length of the longest value
+    character(len=name_length) :: name(n)
+    character(len=width) :: value(n)
+    integer :: i
+
     do i = 1, n
       name(i) = model%setting(i)%name
       value(i) = model%setting(i)%value
     end do
-    call file%group("deck")
-    call file%write("deck/text", model%deck, about_t("1", "", "the deck, includes expanded"))
     call file%group("deck/settings")
     call file%write("deck/settings/name", name, &
                     about_t("1", "setting", "names defined by SET or -D"))
     call file%write("deck/settings/value", value, about_t("1", "setting", "their values"))
-  end subroutine write_deck
+  end subroutine write_settings
 
   !> Nodes, elements, sections, materials, constraints.
   subroutine write_model(file, model)

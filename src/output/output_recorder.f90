@@ -29,12 +29,12 @@ module output_recorder
   contains
     procedure :: open => open_recorder
     procedure :: close => close_recorder
-    procedure :: begin
-    procedure :: iteration
-    procedure :: remark
-    procedure :: step
-    procedure :: finish
-    procedure :: interrupted
+    procedure :: begin => record_begin
+    procedure :: iteration => record_iteration
+    procedure :: remark => record_remark
+    procedure :: step => record_step
+    procedure :: finish => record_finish
+    procedure :: interrupted => ask_interrupted
   end type run_recorder_t
 
 contains
@@ -68,7 +68,7 @@ contains
     end if
   end subroutine close_recorder
 
-  subroutine begin(self, number, analysis, error)
+  subroutine record_begin(self, number, analysis, error)
     class(run_recorder_t), intent(inout) :: self
     integer, intent(in) :: number
     type(analysis_t), intent(in) :: analysis
@@ -76,23 +76,23 @@ contains
 
     call self%log%begin(number, analysis)
     call self%file%begin(number, analysis, error)
-  end subroutine begin
+  end subroutine record_begin
 
-  subroutine iteration(self, iteration)
+  subroutine record_iteration(self, iteration)
     class(run_recorder_t), intent(inout) :: self
     type(iteration_t), intent(in) :: iteration
 
     call self%log%iteration(iteration)
-  end subroutine iteration
+  end subroutine record_iteration
 
-  subroutine remark(self, text)
+  subroutine record_remark(self, text)
     class(run_recorder_t), intent(inout) :: self
     character(len=*), intent(in) :: text
 
     call self%log%remark(text)
-  end subroutine remark
+  end subroutine record_remark
 
-  subroutine step(self, step, results, error)
+  subroutine record_step(self, step, results, error)
     class(run_recorder_t), intent(inout) :: self
     type(step_t), intent(in) :: step
     type(results_t), intent(in) :: results
@@ -100,21 +100,21 @@ contains
 
     call self%file%step(step, results, error)
     if (.not. allocated(error)) call self%log%step(step, results)
-  end subroutine step
+  end subroutine record_step
 
-  subroutine finish(self, complete, error)
+  subroutine record_finish(self, complete, error)
     class(run_recorder_t), intent(inout) :: self
     logical, intent(in) :: complete
     type(error_t), allocatable, intent(out) :: error
 
     call self%log%finish(complete)
     call self%file%finish(complete, error)
-  end subroutine finish
+  end subroutine record_finish
 
-  logical function interrupted(self)
+  logical function ask_interrupted(self)
     class(run_recorder_t), intent(inout) :: self
 
-    interrupted = self%signals%raised()
-  end function interrupted
+    ask_interrupted = self%signals%raised()
+  end function ask_interrupted
 
 end module output_recorder

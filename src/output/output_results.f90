@@ -6,7 +6,8 @@ module output_results
   use program_version, only: program_name, version
   use recorder, only: step_t
   use system_results, only: results_t, result_modes
-  use output_files, only: file_exists, folder_exists, check_writable, rename_file, remove_file
+  use output_files, only: file_exists, folder_exists, check_writable, check_unused, &
+                          rename_file, remove_file
   use output_hdf5, only: hdf5_file_t, about_t
   use output_tables, only: table_t
   use output_model, only: write_deck, write_model
@@ -50,27 +51,35 @@ contains
     logical, intent(in) :: overwrite   !< else an existing file is an error
     type(model_t), intent(in) :: model
     type(error_t), allocatable, intent(out) :: error
+    logical :: exists, new
 
     self%path = path
-    if (.not. overwrite .and. file_exists(path)) then
+    exists = file_exists(path)
+    new = .not. file_exists(partial(self))
+    if (exists .and. .not. overwrite) then
       call fail(error, exit_io, "'"//path//"' exists and --no-overwrite is given")
     else if (folder_exists(path)) then
       call fail(error, exit_io, "cannot write '"//path//"': it is a folder")
+    else if (index(path, "/dev/") == 1) then
+      call fail(error, exit_io, "cannot write '"//path//"': it is no place for a file")
     else
       call check_writable(partial(self), error)
+      if (.not. allocated(error)) call check_unused(partial(self), error)
     end if
     if (allocated(error)) return
     self%nodes = size(model%node)
     self%members = size(model%member)
     self%marker = model%marker%name
     call self%file%create(partial(self), error)
-    if (.not. allocated(error)) then
-      call write_head(self%file, model)
-      call write_deck(self%file, model)
-      call write_model(self%file, model)
-      call self%file%group("analysis")
-      call self%file%flush(error)
+    if (allocated(error)) then
+      if (new) call remove_file(partial(self))
+      return
     end if
+    call write_head(self%file, model)
+    call write_deck(self%file, model)
+    call write_model(self%file, model)
+    call self%file%group("analysis")
+    call self%file%flush(error)
     if (allocated(error)) call discard(self)
   end subroutine open_results
 

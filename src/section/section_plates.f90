@@ -228,8 +228,7 @@ contains
     s = 0.0_wp
     if (self%shear_rigid(1)) s(1, 1) = 1.2_wp/self%a
     if (self%shear_rigid(2)) s(2, 2) = 1.2_wp/self%a
-    if (self%shear_rigid(3)) &
-      s(3, 3) = 1.2_wp/(self%ip() + self%a*(self%ys**2 + self%zs**2))
+    if (self%shear_rigid(3)) s(3, 3) = 1.2_wp/(self%ip() + self%a*(self%ys**2 + self%zs**2))
   end function wall_compliance
 
   !> Inverse of a symmetric positive definite matrix, scaled to a unit diagonal first.

@@ -206,6 +206,7 @@ contains
         m%b = m%b - m%tw
       case ("TUBE")
         m%d = m%d - m%t
+      case default  ! RECT, CIRC: no walls
       end select
     end if
     call check_midline(shape, m, error)

@@ -107,8 +107,9 @@ contains
     geometry%omega = corner*[1.0_wp, -1.0_wp, 1.0_wp, -1.0_wp]
     geometry%warping_known = .true.
     call settle_warping(self, 1.0e-12_wp)
-    if (.not. self%shear_rigid(3)) &
+    if (.not. self%shear_rigid(3)) then
       self%d(3, 3) = (self%iw/corner)**2*box_warping_shear(h, b, t, tw)
+    end if
     call set_outline(geometry, corners(out(1), out(2)), corners(in(1), in(2)))
   end subroutine box_section
 

@@ -8,7 +8,7 @@ module system_loads
   implicit none
   private
 
-  public :: amplitudes, add_loads
+  public :: amplitudes, add_loads, load_direction
 
 contains
 
@@ -47,6 +47,35 @@ contains
       end associate
     end do
   end subroutine add_loads
+
+  !> Derivative of the forces (by coordinate) to the level of one pattern; that of a function by
+  !> central differences, whose error, 1e-10, only costs iterations.
+  pure subroutine load_direction(system, state, level, pattern, direction)
+    type(system_t), intent(in) :: system
+    type(state_t), intent(in) :: state
+    real(wp), intent(in) :: level(:)
+    integer, intent(in) :: pattern
+    real(wp), intent(out) :: direction(:)
+    real(wp), parameter :: h = 1.0e-5_wp
+    real(wp) :: force(7), tangent(4, 4), rate
+    integer :: i, at(7)
+
+    direction = 0
+    do i = 1, size(system%load)
+      associate (load => system%load(i))
+        if (load%pattern /= pattern) cycle
+        rate = 1
+        if (load%function > 0) then
+          associate (f => system%function(load%function), s => level(pattern))
+            rate = (function_value(f, s + h) - function_value(f, s - h))/(2*h)
+          end associate
+        end if
+        call dead_load(load, rate, state, force, tangent)
+        at = coordinate_number(load%node([1, 1, 1, 2, 2, 2, 3]), [1, 2, 3, 4, 5, 6, 7])
+        direction(at) = direction(at) + force
+      end associate
+    end do
+  end subroutine load_direction
 
   !> The kernel: forces on translation, rotation and alpha of the node, and the tangent on rotation
   !> and alpha: of -F.R(arm + alpha warp), with -skew(T)/2 for a dead moment.

@@ -3,7 +3,7 @@ module system_results
   use kinds, only: wp
   use model_data, only: model_t, marker_t
   use nodal_state, only: coordinate_number, node_coordinates
-  use element_base, only: element_t
+  use element_base, only: element_t, max_coordinates
   use rotation, only: rotated
   use system_data, only: system_t
   use system_assembly, only: iterate_t
@@ -39,7 +39,8 @@ contains
     integer :: i
 
     results%displacement = iterate%state%displacement
-    results%euler = iterate%state%euler
+    allocate (results%euler(4, system%nodes))
+    results%euler(:, :) = iterate%state%euler
     results%warping = iterate%state%warping
     call get_forces(system, iterate, results)
     call get_members(model, system, iterate, results)
@@ -78,7 +79,7 @@ contains
     type(system_t), intent(in) :: system
     type(iterate_t), intent(in) :: iterate
     type(results_t), intent(inout) :: results
-    real(wp) :: stress(result_modes), force(14), shift(4)
+    real(wp) :: stress(result_modes), force(max_coordinates), shift(4)
     integer :: e, first, i
 
     allocate (results%strain(result_modes, system%members), results%stress(result_modes, system%members))
@@ -94,7 +95,7 @@ contains
       results%strain(3:6, e) = results%strain(3:6, e) - shift*results%strain(2, e)
       results%stress(:, e) = stress
       results%stress(2, e) = stress(2) + dot_product(shift, stress(3:6))
-      force = nodal_force(system, iterate, e, system%element(e)%e)
+      force(:system%element(e)%e%coordinates) = nodal_force(system, iterate, e, system%element(e)%e)
       results%force_p(:, e) = -in_section(iterate, system%element(e)%e, 1, force(1:7))
       results%force_q(:, e) = in_section(iterate, system%element(e)%e, 2, force(8:14))
     end do

@@ -51,7 +51,7 @@ contains
       do i = 1, size(settings)
         at = index(settings(i), "=")
         override(i)%name = settings(i)(:at - 1)
-        override(i)%value = trim(settings(i)(at + 1:))
+        override(i)%value = trim(adjustl(settings(i)(at + 1:)))
       end do
     end if
     memory%steps = 0

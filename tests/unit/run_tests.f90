@@ -1,8 +1,28 @@
 program run_tests
   use check, only: finish
+  use test_linalg, only: run_linalg_tests
+  use test_section_data, only: run_section_data_tests
+  use test_section_plates, only: run_section_plates_tests
+  use test_section_shapes, only: run_section_shapes_tests
+  use test_section_solids, only: run_section_solids_tests
+  use test_section_topology, only: run_section_topology_tests
+  use test_section_check, only: run_section_check_tests
   use test_element_beamw, only: run_element_beamw_tests
+  use test_beamw_inertia, only: run_beamw_inertia_tests
+  use test_column_vibration, only: run_column_vibration_tests
+  use test_static, only: run_static_tests
   implicit none
 
+  call run_linalg_tests()
+  call run_section_data_tests()
+  call run_section_plates_tests()
+  call run_section_shapes_tests()
+  call run_section_solids_tests()
+  call run_section_topology_tests()
+  call run_section_check_tests()
   call run_element_beamw_tests()
+  call run_beamw_inertia_tests()
+  call run_column_vibration_tests()
+  call run_static_tests()
   call finish()
 end program run_tests

@@ -96,7 +96,6 @@ contains
   pure function channel(b, h) result(points)
     real(wp), intent(in) :: b, h
     real(wp) :: points(2, 4)
-
     points = reshape([b, h/2, 0.0_wp, h/2, 0.0_wp, -h/2, b, -h/2], [2, 4])
   end function channel
 
@@ -319,7 +318,6 @@ contains
   pure function i_points(b1, b2, h) result(points)
     real(wp), intent(in) :: b1, b2, h
     real(wp) :: points(2, 6)
-
     points = reshape([-b1/2, h, 0.0_wp, h, b1/2, h, -b2/2, 0.0_wp, 0.0_wp, 0.0_wp, b2/2, 0.0_wp], &
                      [2, 6])
   end function i_points

@@ -170,7 +170,8 @@ contains
   subroutine box_warping()
     integer, parameter :: n = 2000
     real(wp), parameter :: b = 90, h = 160, tf = 5, tw = 3, psi = 2*b*h/(2*b/tf + 2*h/tw)
-    real(wp), parameter :: length(4) = [h, b, h, b], t(4) = [tw, tf, tw, tf], arm(4) = [b, h, b, h]/2
+    real(wp), parameter :: length(4) = [h, b, h, b], arm(4) = [b, h, b, h]/2
+    real(wp), parameter :: t(4) = [tw, tf, tw, tf]
     type(section_constants_t) :: c
     type(section_geometry_t) :: geometry
     real(wp) :: omega(0:4*n), flow(4*n), step(4*n), wall(4*n), corner(4)

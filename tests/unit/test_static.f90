@@ -106,7 +106,8 @@ contains
     call expect(all(memory%completed), "three complete analyses")
   end subroutine elastica
 
-  !> The circle closes by symmetry; half of it is right to the element's curvature error, 3e-6.
+  !> The circle closes by symmetry. An element bent by an angle a has the chord 1 - a**2/24, where
+  !> the arc has sin(a/2)/(a/2): a**4/1920 too short, here 5.07e-6 of the tip's 2/pi, 3.23e-6.
   subroutine roll_up()
     type(memory_t) :: memory
     type(model_t) :: model
@@ -122,7 +123,7 @@ contains
       if (memory%steps /= 10) cycle
       tip = node(model, 2)
       across = [0.0_wp, sin(angle), cos(angle)]
-      call expect_close(memory%results(5)%displacement(:, tip), 2/pi*across - [1, 0, 0], 3.0e-6_wp, &
+      call expect_close(memory%results(5)%displacement(:, tip), 2/pi*across - [1, 0, 0], 3.3e-6_wp, &
                         "tip of the half circle")
       call expect_close(memory%results(10)%displacement(:, tip), [-1, 0, 0]*1.0_wp, 1.0e-9_wp, &
                         "tip of the full circle")
@@ -267,7 +268,7 @@ contains
 
     call solve("release", memory, model)
     if (memory%steps == 0) return
-    u = 1.0e-6_wp*[3, 5]/(3*[3, 2]*(1.0_wp/8 + 1.0_wp/27))
+    u = 1.0e-8_wp*[3, 5]/(3*[3, 2]*(1.0_wp/8 + 1.0_wp/27))
     associate (r => memory%results(1), middle => node(model, 2))
       call expect_close(r%displacement(2:3, middle), u, 1.0e-9_wp*u(2), "deflection")
       call expect_close(2*r%euler(3:4, middle), [0.5_wp*u(2), -0.5_wp*u(1)], 1.0e-9_wp*u(2), &

@@ -1,0 +1,151 @@
+!> The commands of the program.
+module app_commands
+  use, intrinsic :: iso_fortran_env, only: output_unit, error_unit
+  use errors, only: error_t, fail, exit_usage, exit_deck
+  use text, only: string_t, upper, quoted, plural, newline
+  use program_version, only: program_name, version
+  use diagnostics, only: report_t
+  use model_data, only: model_t
+  use deck_reader, only: read_deck
+  use deck_manual, only: list_keywords, describe_keyword, keywords_markdown
+  use analysis_run, only: run_analyses
+  use analysis_check, only: check_model
+  use output_log, only: log_quiet
+  use output_recorder, only: run_recorder_t, run_options_t
+  use app_options, only: command_t, get_words, parse_words
+  use app_help, only: print_help
+  implicit none
+  private
+
+  public :: run_program
+
+contains
+
+  !> Do what the command line asks for; `status` is the exit status.
+  subroutine run_program(status)
+    integer, intent(out) :: status
+    type(command_t) :: command
+    type(error_t), allocatable :: error
+
+    call read_command(command, error)
+    if (.not. allocated(error)) call do_command(command, error)
+    status = 0
+    if (.not. allocated(error)) return
+    status = error%status
+    if (error%message /= "") write (error_unit, "(a)") error%message
+  end subroutine run_program
+
+  subroutine read_command(command, error)
+    type(command_t), intent(out) :: command
+    type(error_t), allocatable, intent(out) :: error
+    type(string_t), allocatable :: words(:)
+
+    call get_words(words)
+    call parse_words(words, command, error)
+  end subroutine read_command
+
+  subroutine do_command(command, error)
+    type(command_t), intent(in) :: command
+    type(error_t), allocatable, intent(out) :: error
+
+    select case (command%action)
+    case ("run")
+      call run_deck(command, error)
+    case ("check")
+      call check_deck(command, error)
+    case ("keywords")
+      call show_keywords(command, error)
+    case ("version")
+      write (output_unit, "(a)") program_name//" "//version
+    case default
+      call print_help(output_unit, command%argument)
+    end select
+  end subroutine do_command
+
+  !> Read a deck; what is wrong with it is printed.
+  subroutine load_deck(command, model, error)
+    type(command_t), intent(in) :: command
+    type(model_t), intent(out) :: model
+    type(error_t), allocatable, intent(out) :: error
+    type(report_t) :: report
+
+    call read_deck(command%argument, command%setting, model, report, error)
+    if (allocated(error)) return
+    if (report%errors() > 0 .or. command%level > log_quiet) call report%print(error_unit)
+    if (report%errors() > 0) call fail(error, exit_deck, command%argument//": "// &
+                                       plural(report%errors(), "error"))
+  end subroutine load_deck
+
+  !> spar run
+  subroutine run_deck(command, error)
+    type(command_t), intent(in) :: command
+    type(error_t), allocatable, intent(out) :: error
+    type(model_t) :: model
+    type(run_recorder_t) :: recorder
+    type(run_options_t) :: options
+    type(error_t), allocatable :: second
+
+    call get_options(command, options, error)
+    if (.not. allocated(error)) call load_deck(command, model, error)
+    if (.not. allocated(error)) call recorder%open(options, model, error)
+    if (allocated(error)) return
+    call run_analyses(model, recorder, error)
+    call recorder%close(.not. allocated(error), second)
+    if (.not. allocated(error)) call move_alloc(second, error)
+  end subroutine run_deck
+
+  subroutine get_options(command, options, error)
+    type(command_t), intent(in) :: command
+    type(run_options_t), intent(out) :: options
+    type(error_t), allocatable, intent(out) :: error
+
+    options%deck = command%argument
+    options%output = command%output
+    if (options%output == "") options%output = base_name(command%argument)//".h5"
+    options%overwrite = command%overwrite
+    options%progress = command%progress
+    options%level = command%level
+    if (options%output == options%deck .or. options%output//".part" == options%deck) &
+      call fail(error, exit_usage, "the results would replace the deck "//quoted(options%deck)// &
+                newline//"    hint: spar run "//options%deck//" -o OTHER.h5")
+  end subroutine get_options
+
+  !> A path without folders and extension.
+  pure function base_name(path) result(name)
+    character(len=*), intent(in) :: path
+    character(len=:), allocatable :: name
+    integer :: dot
+
+    name = path(index(path, "/", back=.true.) + 1:)
+    dot = index(name, ".", back=.true.)
+    if (dot > 1) name = name(:dot - 1)
+  end function base_name
+
+  !> spar check
+  subroutine check_deck(command, error)
+    type(command_t), intent(in) :: command
+    type(error_t), allocatable, intent(out) :: error
+    type(model_t) :: model
+
+    call load_deck(command, model, error)
+    if (.not. allocated(error)) call check_model(model, output_unit, error)
+  end subroutine check_deck
+
+  !> spar keywords
+  subroutine show_keywords(command, error)
+    type(command_t), intent(in) :: command
+    type(error_t), allocatable, intent(out) :: error
+    logical :: found
+
+    if (command%markdown) then
+      call keywords_markdown(output_unit)
+    else if (command%argument == "") then
+      call list_keywords(output_unit)
+    else
+      call describe_keyword(output_unit, upper(command%argument), found)
+      if (.not. found) call fail(error, exit_usage, "no keyword "//quoted(command%argument)// &
+                                 newline//"    hint: spar keywords")
+    end if
+  end subroutine show_keywords
+
+end module app_commands

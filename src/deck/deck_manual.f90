@@ -1,0 +1,278 @@
+!> The keyword table for people: `spar keywords` and the keyword part of the manual.
+module deck_manual
+  use text, only: upper, joined, nearest_word
+  use deck_handler, only: keyword_t
+  use deck_keywords, only: keywords
+  use deck_usage, only: usage_t, form_t, argument_t, parse_usage, kind_real, kind_choice, &
+                        kind_id, kind_node, kind_element, kind_nodes, kind_elements, kind_count, &
+                        kind_mode, kind_component, kind_literal
+  implicit none
+  private
+
+  public :: list_keywords, describe_keyword, keywords_markdown
+
+contains
+
+  !> One line per keyword: its name and what it is for.
+  subroutine list_keywords(unit)
+    integer, intent(in) :: unit
+    type(keyword_t), allocatable :: table(:)
+    character(len=16) :: name
+    integer :: i
+
+    allocate (table, source=keywords())
+    do i = 1, size(table)
+      name = table(i)%name
+      write (unit, "(a)") name//first_clause(trim(table(i)%help))
+    end do
+    write (unit, "(/, a)") "spar keywords KEYWORD shows one in full, with an example."
+  end subroutine list_keywords
+
+  !> A help text up to its first full stop or semicolon.
+  pure function first_clause(help) result(clause)
+    character(len=*), intent(in) :: help
+    character(len=:), allocatable :: clause
+    integer :: stop_at
+
+    stop_at = len(help)
+    if (index(help, "; ") > 0) stop_at = min(stop_at, index(help, "; ") - 1)
+    if (index(help, ". ") > 0) stop_at = min(stop_at, index(help, ". ") - 1)
+    clause = help(:stop_at)
+  end function first_clause
+
+  !> Everything about one keyword; `found` is false if there is none, `near` the one meant.
+  subroutine describe_keyword(unit, name, found, near)
+    integer, intent(in) :: unit
+    character(len=*), intent(in) :: name
+    logical, intent(out) :: found
+    character(len=:), allocatable, intent(out), optional :: near
+    type(keyword_t), allocatable :: table(:)
+    integer :: i
+
+    allocate (table, source=keywords())
+    found = .false.
+    do i = 1, size(table)
+      if (table(i)%name /= upper(name)) cycle
+      if (found) write (unit, "(a)")
+      found = .true.
+      call describe(unit, table(i))
+    end do
+    if (present(near)) near = nearest_word(name, table%name)
+  end subroutine describe_keyword
+
+  subroutine describe(unit, keyword)
+    integer, intent(in) :: unit
+    type(keyword_t), intent(in) :: keyword
+    type(usage_t) :: usage
+    integer :: i
+
+    call parse_usage(keyword%name, keyword%forms, keyword%options, usage)
+    do i = 1, size(usage%form)
+      write (unit, "(a)") form_line(usage, i)
+    end do
+    write (unit, "(4x, a)") trim(keyword%name)//" "//trim(keyword%help)//"."
+    do i = 1, most_arguments(usage)
+      write (unit, "(4x, a)") argument_line(longest_form(usage), i)
+    end do
+    do i = 1, size(usage%option)
+      write (unit, "(4x, a)") option_line(usage, i)
+    end do
+    if (keyword%spacar /= "") write (unit, "(4x, a)") "SPACAR: "//trim(keyword%spacar)
+    write (unit, "(a)") "  example:"
+    call write_example(unit, keyword%example, "    ")
+  end subroutine describe
+
+  !> `NODE id x y z`.
+  function form_line(usage, i) result(line)
+    type(usage_t), intent(in) :: usage
+    integer, intent(in) :: i
+    character(len=:), allocatable :: line
+    integer :: k
+
+    line = trim(usage%name)
+    associate (form => usage%form(i))
+      do k = 1, form%arguments
+        if (k > form%least) then
+          line = line//" ["//trim(form%argument(k)%name)//"]"
+        else
+          line = line//" "//trim(form%argument(k)%name)
+        end if
+      end do
+      if (form%repeats) line = line//" ..."
+    end associate
+    if (size(usage%option) > 0) line = line//" [options]"
+  end function form_line
+
+  pure integer function most_arguments(usage)
+    type(usage_t), intent(in) :: usage
+
+    most_arguments = maxval(usage%form%arguments)
+  end function most_arguments
+
+  pure function longest_form(usage) result(form)
+    type(usage_t), intent(in) :: usage
+    type(form_t) :: form
+
+    form = usage%form(maxloc(usage%form%arguments, 1))
+  end function longest_form
+
+  !> `x           number [L]`.
+  function argument_line(form, i) result(line)
+    type(form_t), intent(in) :: form
+    integer, intent(in) :: i
+    character(len=:), allocatable :: line
+    character(len=16) :: name
+
+    name = form%argument(i)%name
+    line = name//kind_text(form%argument(i))
+  end function argument_line
+
+  !> What an argument must be, in words.
+  function kind_text(argument) result(phrase)
+    type(argument_t), intent(in) :: argument
+    character(len=:), allocatable :: phrase
+
+    select case (argument%kind)
+    case (kind_real)
+      phrase = "number"//dimension_text(argument%unit)
+    case (kind_choice)
+      phrase = trim(argument%unit)
+      if (phrase(len(phrase):) == "/") phrase = phrase(:len(phrase) - 1)
+    case (kind_id)
+      phrase = "the card's own id, or a range a:b or a:b:s"
+    case (kind_node)
+      phrase = "node"
+    case (kind_element)
+      phrase = "element"
+    case (kind_nodes)
+      phrase = "list of nodes: id, a:b, a:b:s, ALL or a group"
+    case (kind_elements)
+      phrase = "list of elements: id, a:b, a:b:s, ALL or a group"
+    case (kind_count)
+      phrase = "whole number"
+    case (kind_mode)
+      phrase = "mode, 1 to 8"
+    case (kind_component)
+      phrase = "X Y Z RX RY RZ W, or SPACAR's number"
+    case (kind_literal)
+      phrase = "as it stands"
+    case default
+      phrase = "word"
+    end select
+  end function kind_text
+
+  !> ` [F L^-2]`; nothing for a number without dimension.
+  pure function dimension_text(unit) result(phrase)
+    character(len=*), intent(in) :: unit
+    character(len=:), allocatable :: phrase
+    integer :: i
+
+    phrase = ""
+    if (unit == "1") return
+    phrase = " ["//trim(unit)//"]"
+    do i = 1, len(phrase)
+      if (phrase(i:i) == "*") phrase(i:i) = " "
+    end do
+  end function dimension_text
+
+  !> `E e         number [F L^-2], required`.
+  function option_line(usage, k) result(line)
+    type(usage_t), intent(in) :: usage
+    integer, intent(in) :: k
+    character(len=:), allocatable :: line, name, kind
+    character(len=20) :: column
+    integer :: i
+
+    associate (option => usage%option(k))
+      name = trim(option%name)
+      kind = ""
+      do i = 1, option%values
+        name = name//" "//trim(option%value(i)%name)
+        if (kind == kind_text(option%value(i))) cycle
+        kind = joined(kind, ", ", kind_text(option%value(i)))
+      end do
+      if (option%name == "AT") kind = "numbers [L], or POINT and the number of a section's point"
+      if (option%required) kind = joined(kind, ", ", "required")
+      if (option%default /= "") kind = joined(kind, ", ", "default "//trim(option%default))
+      column = name
+      line = trim(column//"  "//kind)
+    end associate
+  end function option_line
+
+  !> The cards of an example, one a line.
+  subroutine write_example(unit, example, indent)
+    integer, intent(in) :: unit
+    character(len=*), intent(in) :: example, indent
+    integer :: at, bar
+
+    at = 1
+    do while (at <= len_trim(example))
+      bar = index(example(at:), "|")
+      if (bar == 0) bar = len_trim(example) - at + 2
+      write (unit, "(a)") indent//example(at:at + bar - 2)
+      at = at + bar
+    end do
+  end subroutine write_example
+
+  !> The keyword chapter of the manual.
+  subroutine keywords_markdown(unit)
+    integer, intent(in) :: unit
+    type(keyword_t), allocatable :: table(:)
+    type(usage_t) :: usage
+    integer :: i, k
+
+    allocate (table, source=keywords())
+    do i = 1, size(table)
+      call parse_usage(table(i)%name, table(i)%forms, table(i)%options, usage)
+      if (i == 1) then
+        write (unit, "(a)") "### "//trim(table(i)%name)
+      else if (table(i)%name /= table(i - 1)%name) then
+        write (unit, "(/, a)") "### "//trim(table(i)%name)
+      end if
+      write (unit, "(a)") ""
+      do k = 1, size(usage%form)
+        write (unit, "(a)") "    "//form_line(usage, k)
+      end do
+      write (unit, "(/, a)") "`"//trim(table(i)%name)//"` "//trim(table(i)%help)//"."
+      call markdown_table(unit, usage)
+      if (table(i)%spacar /= "") write (unit, "(/, a)") "SPACAR: `"//trim(table(i)%spacar)//"`."
+      write (unit, "(/, a, /)") "Example:"
+      call write_example(unit, table(i)%example, "    ")
+    end do
+  end subroutine keywords_markdown
+
+  subroutine markdown_table(unit, usage)
+    integer, intent(in) :: unit
+    type(usage_t), intent(in) :: usage
+    type(form_t) :: form
+    character(len=:), allocatable :: line
+    integer :: i
+
+    form = longest_form(usage)
+    if (form%arguments + size(usage%option) == 0) return
+    write (unit, "(/, a, /, a)") "| | |", "|---|---|"
+    do i = 1, form%arguments
+      write (unit, "(a)") "| "//trim(form%argument(i)%name)//" | "// &
+        kind_text(form%argument(i))//" |"
+    end do
+    do i = 1, size(usage%option)
+      line = option_line(usage, i)
+      call split_column(line)
+      write (unit, "(a)") "| "//line//" |"
+    end do
+  end subroutine markdown_table
+
+  !> Put a column bar between the name and the text of an option's line.
+  subroutine split_column(line)
+    character(len=:), allocatable, intent(inout) :: line
+    integer :: gap
+
+    gap = index(line, "  ")
+    if (gap == 0) then
+      line = "`"//line//"` |"
+    else
+      line = "`"//line(:gap - 1)//"` | "//trim(adjustl(line(gap:)))
+    end if
+  end subroutine split_column
+
+end module deck_manual

@@ -1,0 +1,175 @@
+!> Is the model sound? Errors and warnings with the place of the card to blame.
+module model_check
+  use kinds, only: wp
+  use text, only: to_text, quoted
+  use diagnostics, only: place_t, report_t
+  use model_data, only: model_t, member_t, section_t, mode_flexible, mass_none
+  implicit none
+  private
+
+  public :: check_parts, check_members, check_use
+
+  character(len=*), parameter :: stiffness_names(6) = &
+    ["EA ", "GIt", "EIy", "EIy", "EIz", "EIz"]
+
+contains
+
+  !> Materials and sections by themselves.
+  subroutine check_parts(model, report)
+    type(model_t), intent(in) :: model
+    type(report_t), intent(inout) :: report
+    integer :: i
+
+    do i = 1, size(model%material)
+      associate (material => model%material(i))
+        if (material%place%line == 0) cycle
+        call need_positive(report, material%place, "E of MATERIAL", material%name, material%e)
+        if (material%e > 0.0_wp) &
+          call need_positive(report, material%place, "G of MATERIAL", material%name, material%g)
+        if (material%rho < 0.0_wp) call report%add_error(material%place, &
+          "RHO of MATERIAL "//quoted(trim(material%name))//" cannot be negative")
+        if (material%damping < 0.0_wp) call report%add_error(material%place, &
+          "DAMPING of MATERIAL "//quoted(trim(material%name))//" cannot be negative")
+      end associate
+    end do
+    do i = 1, size(model%section)
+      if (model%section(i)%place%line > 0) call check_section(model%section(i), report)
+    end do
+  end subroutine check_parts
+
+  subroutine need_positive(report, place, what, name, value)
+    type(report_t), intent(inout) :: report
+    type(place_t), intent(in) :: place
+    character(len=*), intent(in) :: what, name
+    real(wp), intent(in) :: value
+
+    if (value > 0.0_wp) return
+    call report%add_error(place, what//" "//quoted(trim(name))//" must be positive, not "// &
+                          to_text(value))
+  end subroutine need_positive
+
+  subroutine check_section(section, report)
+    type(section_t), intent(in) :: section
+    type(report_t), intent(inout) :: report
+
+    associate (c => section%constants, place => section%place, name => section%name)
+      call need_positive(report, place, "A of SECTION", name, c%a)
+      call need_positive(report, place, "IY of SECTION", name, c%iy)
+      call need_positive(report, place, "IZ of SECTION", name, c%iz)
+      call need_positive(report, place, "IT of SECTION", name, c%it)
+      if (c%iw < 0.0_wp) call report%add_error(place, "IW of SECTION "//quoted(trim(name))// &
+                                               " cannot be negative")
+      if (c%ir < 0.0_wp) call report%add_error(place, "IR of SECTION "//quoted(trim(name))// &
+                                               " cannot be negative")
+      if (c%shear_given) then
+        if (.not. positive_definite(c%d)) call report%add_error(place, &
+          "the shear rigidities DY ... DZW of SECTION "//quoted(trim(name))// &
+          " are not positive definite")
+      end if
+    end associate
+  end subroutine check_section
+
+  !> Of a symmetric matrix, by its leading minors after scaling the diagonal to one.
+  pure logical function positive_definite(d)
+    real(wp), intent(in) :: d(3, 3)
+    real(wp) :: c12, c13, c23
+
+    positive_definite = d(1, 1) > 0.0_wp .and. d(2, 2) > 0.0_wp .and. d(3, 3) > 0.0_wp
+    if (.not. positive_definite) return
+    c12 = d(1, 2)/(sqrt(d(1, 1))*sqrt(d(2, 2)))
+    c13 = d(1, 3)/(sqrt(d(1, 1))*sqrt(d(3, 3)))
+    c23 = d(2, 3)/(sqrt(d(2, 2))*sqrt(d(3, 3)))
+    positive_definite = max(abs(c12), abs(c13), abs(c23)) < 1.0_wp
+    if (positive_definite) positive_definite = &
+      1.0_wp + 2.0_wp*c12*c13*c23 - c12**2 - c13**2 - c23**2 > 1.0e-12_wp
+  end function positive_definite
+
+  !> What elements need to be complete.
+  subroutine check_members(model, report)
+    type(model_t), intent(in) :: model
+    type(report_t), intent(inout) :: report
+    character(len=:), allocatable :: name
+    integer :: m
+
+    do m = 1, size(model%member)
+      associate (member => model%member(m))
+        if (member%part > 1) cycle
+        name = "element "//to_text(member%id)
+        if (member%section /= 0 .and. member%material == 0 .and. .not. member%rigid) then
+          call report%add_error(member%place, name//" has a SECTION but no MATERIAL")
+        else if (member%section == 0 .and. member%material /= 0) then
+          call report%add_error(member%place, name//" has a MATERIAL but no SECTION")
+        else if (any(member%status == mode_flexible) .and. member%section == 0) then
+          call check_stiffness(member, name, report)
+        end if
+      end associate
+    end do
+  end subroutine check_members
+
+  !> Flexible modes without SECTION need ESTIFF, and a value there.
+  subroutine check_stiffness(member, name, report)
+    type(member_t), intent(in) :: member
+    character(len=*), intent(in) :: name
+    type(report_t), intent(inout) :: report
+    integer, parameter :: value(6) = [1, 2, 3, 3, 4, 4]
+    integer :: mode
+
+    if (.not. member%has_stiffness) then
+      call report%add_error(member%place, name//" has flexible modes but no stiffness", &
+                            "give SECTION and MATERIAL, or ESTIFF")
+      return
+    end if
+    do mode = 1, 6
+      if (member%status(mode) /= mode_flexible .or. member%stiffness(value(mode)) > 0.0_wp) cycle
+      call report%add_warning(member%place, "mode "//to_text(mode)//" of "//name// &
+                              " is flexible, but its stiffness "//trim(stiffness_names(mode))// &
+                              " is 0")
+    end do
+  end subroutine check_stiffness
+
+  !> What a model needs to be of use; only worth asking if it has no errors.
+  subroutine check_use(model, report)
+    type(model_t), intent(in) :: model
+    type(report_t), intent(inout) :: report
+    type(place_t) :: deck_place
+    integer :: i
+
+    deck_place = place_t(file=1)
+    if (size(model%member) == 0) then
+      call report%add_error(deck_place, "the deck has no elements")
+      return
+    end if
+    do i = 1, size(model%node)
+      associate (node => model%node(i))
+        if (.not. any(node%exists)) call report%add_warning(node%place, "no element uses node "// &
+                                                            to_text(node%id))
+      end associate
+    end do
+    if (size(model%pattern) == 0) call report%add_warning(deck_place, "the deck has no loads")
+    do i = 1, size(model%pattern)
+      if (.not. any(abs(model%pattern(i)%gravity) > 0)) cycle
+      if (has_mass(model)) exit
+      call report%add_warning(deck_place, "GRAVITY acts on nothing: no element has mass", &
+                              "MATERIAL ... RHO, or EM")
+      exit
+    end do
+  end subroutine check_use
+
+  !> Does any element have mass?
+  pure logical function has_mass(model)
+    type(model_t), intent(in) :: model
+    integer :: m
+
+    has_mass = .true.
+    do m = 1, size(model%member)
+      associate (member => model%member(m))
+        if (member%mass == mass_none) cycle
+        if (member%has_inertia .and. member%inertia(1) > 0.0_wp) return
+        if (member%section == 0 .or. member%material == 0) cycle
+        if (model%material(member%material)%rho > 0.0_wp) return
+      end associate
+    end do
+    has_mass = .false.
+  end function has_mass
+
+end module model_check
