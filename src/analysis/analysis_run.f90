@@ -2,7 +2,7 @@
 module analysis_run
   use kinds, only: wp
   use errors, only: error_t, fail, exit_deck
-  use model_data, only: model_t
+  use model_data, only: model_t, control_arc
   use linalg_solver, only: solver_t
   use system_data, only: system_t
   use system_build, only: build_system, find_system_pattern
@@ -10,6 +10,7 @@ module analysis_run
   use system_constraints, only: drop_redundant, free_motions
   use system_names, only: coordinate_name, strain_name
   use analysis_static, only: run_static
+  use analysis_arc, only: run_arc
   use recorder, only: recorder_t
   implicit none
   private
@@ -56,7 +57,11 @@ contains
     do i = 1, size(model%analysis)
       call recorder%begin(i, model%analysis(i), error)
       if (allocated(error)) return
-      call run_static(model, system, solver, model%analysis(i), level, iterate, recorder, error)
+      if (model%analysis(i)%control == control_arc) then
+        call run_arc(model, system, solver, model%analysis(i), level, iterate, recorder, error)
+      else
+        call run_static(model, system, solver, model%analysis(i), level, iterate, recorder, error)
+      end if
       call recorder%finish(.not. allocated(error), second)
       if (.not. allocated(error) .and. allocated(second)) call move_alloc(second, error)
       if (allocated(error)) return

@@ -6,7 +6,7 @@ module newton_method
   use errors, only: error_t
   use nodal_state, only: state_t, node_coordinates
   use linalg_solver, only: solver_t
-  use model_data, only: control_load, control_arc
+  use model_data, only: control_load
   use system_data, only: system_t
   use system_assembly, only: iterate_t, assemble, right_hand_side, advance
   use system_constraints, only: coordinate_scale
@@ -81,7 +81,7 @@ contains
       if (allocated(error)) return
       call step_safely(system, control, solution, rise, level, iterate, increment, outcome)
       if (outcome%status /= newton_converged) return
-      if (control%kind == control_arc) control%total = control%total + increment
+      if (allocated(control%total)) control%total = control%total + increment
       motion = largest_motion(system, iterate%state)
       outcome%last%increment = measure(system, increment)/max(motion, tiny(1.0_wp))
       if (control%pattern > 0) outcome%last%factor = level(control%pattern)

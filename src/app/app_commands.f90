@@ -2,11 +2,12 @@
 module app_commands
   use, intrinsic :: iso_fortran_env, only: output_unit, error_unit
   use errors, only: error_t, fail, exit_usage, exit_deck
-  use text, only: string_t, upper, quoted, plural, newline
+  use text, only: string_t, upper, quoted, plural, newline, nearest_word
   use program_version, only: program_name, version
   use diagnostics, only: report_t
   use model_data, only: model_t
   use deck_reader, only: read_deck
+  use deck_keywords, only: keywords
   use deck_manual, only: list_keywords, describe_keyword, keywords_markdown
   use analysis_run, only: run_analyses
   use analysis_check, only: check_model
@@ -143,9 +144,21 @@ contains
       call list_keywords(output_unit)
     else
       call describe_keyword(output_unit, upper(command%argument), found)
-      if (.not. found) call fail(error, exit_usage, "no keyword "//quoted(command%argument)// &
-                                 newline//"    hint: spar keywords")
+      if (.not. found) call refuse_keyword(command%argument, error)
     end if
   end subroutine show_keywords
+
+  subroutine refuse_keyword(name, error)
+    character(len=*), intent(in) :: name
+    type(error_t), allocatable, intent(out) :: error
+    character(len=:), allocatable :: hint
+
+    associate (table => keywords())
+      hint = nearest_word(name, table%name)
+    end associate
+    if (hint /= "") hint = "did you mean "//hint//"?"
+    if (hint == "") hint = "spar keywords"
+    call fail(error, exit_usage, "no keyword "//quoted(name)//newline//"    hint: "//hint)
+  end subroutine refuse_keyword
 
 end module app_commands

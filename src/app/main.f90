@@ -1,6 +1,8 @@
 !> The program: the only place that ends the process.
 program main
-  use, intrinsic :: iso_c_binding, only: c_int
+  use, intrinsic :: iso_fortran_env, only: error_unit
+  use, intrinsic :: iso_c_binding, only: c_int, c_funptr, c_funloc
+  use errors, only: exit_io
   use app_commands, only: run_program
   implicit none
 
@@ -11,9 +13,36 @@ program main
       implicit none
       integer(c_int), value :: status
     end subroutine c_exit
-  end interface
-  integer :: status
 
+    subroutine c_exit_now(status) bind(c, name="_exit")
+      import :: c_int
+      implicit none
+      integer(c_int), value :: status
+    end subroutine c_exit_now
+
+    integer(c_int) function c_atexit(handler) bind(c, name="atexit")
+      import :: c_int, c_funptr
+      implicit none
+      type(c_funptr), value :: handler
+    end function c_atexit
+  end interface
+  logical :: done
+  integer :: status
+  data done /.false./  ! makes it static, which a handler needs
+
+  status = c_atexit(c_funloc(end_early))
   call run_program(status)
+  done = .true.
   call c_exit(int(status, c_int))
+
+contains
+
+  !> The Fortran library ends the process by itself, with status 1, where memory runs out.
+  subroutine end_early() bind(c)
+    if (done) return
+    write (error_unit, "(a)") "the program could not go on, most likely for lack of memory"
+    flush (error_unit)
+    call c_exit_now(int(exit_io, c_int))
+  end subroutine end_early
+
 end program main

@@ -100,10 +100,10 @@ contains
       keyword_t("EM", "model", "elements:elements rhoA:M*L^-1 rhoIp:M*L rhoIy:M*L rhoIz:M*L "// &
         "rhoIyz:M*L rhoIw:M*L^3", "", "gives mass to a beam without SECTION", &
         "EM 1 7.85 0.2 0.15 0.05 0 0.01", "EM", read_em), &
-      keyword_t("GROUP", "model", "name:word NODES list:text+", "", &
+      keyword_t("GROUP", "load", "name:word NODES list:text+", "", &
         "names a list of nodes; a list is an id, a:b, a:b:s, ALL or a group", &
         "GROUP tip NODES 4 11:15 20:30:2", "", read_group_nodes), &
-      keyword_t("GROUP", "model", "name:word ELEMENTS list:text+", "", &
+      keyword_t("GROUP", "load", "name:word ELEMENTS list:text+", "", &
         "names a list of elements", "GROUP legs ELEMENTS 1 4:6 7.2", "", read_group_elements), &
       keyword_t("MARKER", "model", "name:word node:node", &
         "AT oy:place oz:L! | OF element:element", &

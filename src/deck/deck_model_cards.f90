@@ -215,8 +215,7 @@ contains
     c%bz = value(15)
     c%bw = value(16)
     c%ir = value(17)
-    c%shear_given = any(card%option(8:13) > 0)
-    if (c%shear_given) call set_shear(card, draft, value(8:13), c)
+    if (any(card%option(8:13) > 0)) call set_shear(card, draft, value(8:13), c)
     call define_name(card, 2, draft%report, draft%sections, .true., k)
     if (k == 0) return
     call grow(draft%model%section, k)
@@ -242,13 +241,15 @@ contains
     c%d(2, 1) = c%d(1, 2)
     c%d(3, 1) = c%d(1, 3)
     c%d(3, 2) = c%d(2, 3)
+    c%shear_given = .false.
     if (any(card%option(8:9) == 0)) then
       call draft%report%add_error(card%place(1), "the shear rigidities DY and DZ go together")
     else if (card%option(10) == 0 .and. (c%iw > 0.0_wp .or. any(card%option(12:13) > 0))) then
       call draft%report%add_error(card%place(1), "a section with IW needs DW besides DY and DZ")
-    else if (card%option(10) == 0) then
-      c%d(3, 3) = 1.0_wp
-      c%shear_rigid(3) = .true.
+    else
+      c%shear_given = .true.
+      c%shear_rigid(3) = card%option(10) == 0
+      if (c%shear_rigid(3)) c%d(3, 3) = 1.0_wp
     end if
   end subroutine set_shear
 

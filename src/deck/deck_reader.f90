@@ -18,7 +18,7 @@ module deck_reader
   implicit none
   private
 
-  public :: read_deck
+  public :: read_deck, read_deck_text
 
   integer, parameter :: deepest = 40         !< of nested includes
   integer, parameter :: most_repeats = 20000000
@@ -39,14 +39,24 @@ contains
     type(model_t), intent(out) :: model
     type(report_t), intent(out) :: report
     type(error_t), allocatable, intent(out) :: error
+    character(len=:), allocatable :: text
+
+    call load_text(path, text, error)
+    if (.not. allocated(error)) call read_deck_text(path, text, overrides, model, report)
+  end subroutine read_deck
+
+  !> Read a deck from memory; `path` is its name in messages and where includes count from.
+  subroutine read_deck_text(path, text, overrides, model, report)
+    character(len=*), intent(in) :: path
+    character(len=:), allocatable, intent(inout) :: text   !< moved into the report
+    type(setting_t), intent(in) :: overrides(:)
+    type(model_t), intent(out) :: model
+    type(report_t), intent(out) :: report
     type(draft_t) :: draft
     type(table_t) :: table
     type(string_t) :: open_files(deepest)
-    character(len=:), allocatable :: text
     integer :: file
 
-    call load_text(path, text, error)
-    if (allocated(error)) return
     call new_draft(overrides, draft)
     call compile(table)
     call draft%report%add_file(path, text, file)
@@ -56,7 +66,7 @@ contains
     call move_model(draft, model)
     report = draft%report
     call report%sort()
-  end subroutine read_deck
+  end subroutine read_deck_text
 
   subroutine move_model(draft, model)
     type(draft_t), intent(inout) :: draft

@@ -8,7 +8,7 @@ module output_files
   public :: file_exists, folder_exists, check_writable, check_unused, rename_file, remove_file, &
             error_is_terminal
 
-  integer(c_int), parameter :: lock_at_once = 6, unlock = 8   !< of flock: LOCK_EX + LOCK_NB, LOCK_UN
+  integer(c_int), parameter :: lock_at_once = 6, unlock = 8   !< LOCK_EX + LOCK_NB, LOCK_UN
 
   interface
     integer(c_int) function c_rename(from, to) bind(c, name="rename")

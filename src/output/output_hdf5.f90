@@ -1,20 +1,20 @@
 !> A file of the HDF5 library: groups, attributes, datasets.
 !>
-!> A failure stays in the file and silences what follows; `flush` and `close` hand it over, so that
-!> a run of calls is checked once. Files of equal contents are equal byte by byte.
+!> A failure stays in the file and silences what follows; `flush` and `close` hand it over, so
+!> that a run of calls is checked once. Files of equal contents are equal byte by byte.
 module output_hdf5
-  use, intrinsic :: iso_c_binding, only: c_ptr, c_loc, c_char, c_null_char
-  use hdf5, only: hid_t, hsize_t, size_t, h5dont_atexit_f, h5open_f, h5close_f, &
-                  h5eset_auto_f, h5fcreate_f, h5fclose_f, h5fflush_f, h5pcreate_f, h5pclose_f, h5pset_libver_bounds_f, &
-                  h5pset_fclose_degree_f, h5pset_obj_track_times_f, h5gcreate_f, h5gclose_f, &
-                  h5oopen_f, h5oclose_f, h5aexists_f, h5adelete_f, h5acreate_f, h5awrite_f, &
-                  h5aclose_f, h5screate_f, h5screate_simple_f, h5sclose_f, h5dcreate_f, &
-                  h5dwrite_f, h5dclose_f, h5tcopy_f, h5tset_size_f, h5tset_strpad_f, &
-                  h5tset_cset_f, h5tclose_f, h5f_acc_trunc_f, h5f_libver_v18_f, &
-                  h5f_close_strong_f, h5f_scope_global_f, h5p_file_create_f, &
-                  h5p_file_access_f, h5p_group_create_f, h5p_dataset_create_f, h5s_scalar_f, &
-                  h5t_native_double, h5t_native_integer, h5t_ieee_f64le, h5t_std_i32le, &
-                  h5t_fortran_s1, h5t_str_nullpad_f, h5t_cset_utf8_f
+  use, intrinsic :: iso_c_binding, only: c_ptr, c_null_ptr, c_loc, c_char, c_null_char
+  use hdf5, only: hid_t, hsize_t, size_t, h5dont_atexit_f, h5open_f, h5close_f, h5eset_auto_f, &
+                  h5fcreate_f, h5fclose_f, h5fflush_f, h5pcreate_f, h5pclose_f, &
+                  h5pset_libver_bounds_f, h5pset_fclose_degree_f, h5pset_obj_track_times_f, &
+                  h5gcreate_f, h5gclose_f, h5oopen_f, h5oclose_f, h5aexists_f, h5adelete_f, &
+                  h5acreate_f, h5awrite_f, h5aclose_f, h5screate_f, h5screate_simple_f, &
+                  h5sclose_f, h5dcreate_f, h5dwrite_f, h5dclose_f, h5tcopy_f, h5tset_size_f, &
+                  h5tset_strpad_f, h5tset_cset_f, h5tclose_f, h5f_acc_trunc_f, h5f_libver_v18_f, &
+                  h5f_close_strong_f, h5f_scope_global_f, h5p_file_create_f, h5p_file_access_f, &
+                  h5p_group_create_f, h5p_dataset_create_f, h5s_scalar_f, h5t_native_double, &
+                  h5t_native_integer, h5t_ieee_f64le, h5t_std_i32le, h5t_fortran_s1, &
+                  h5t_str_nullpad_f, h5t_cset_utf8_f
   use kinds, only: wp
   use errors, only: error_t, fail, exit_io
   use output_dimensions, only: get_powers
@@ -245,9 +245,12 @@ contains
     character(len=*), intent(in) :: path
     integer, intent(in), contiguous, target :: values(:)
     type(about_t), intent(in) :: about
+    type(c_ptr) :: address
 
+    address = c_null_ptr
+    if (size(values) > 0) address = c_loc(values)
     call write_dataset(self, path, h5t_std_i32le, h5t_native_integer, &
-                       shape(values, kind=hsize_t), c_loc(values), about)
+                       shape(values, kind=hsize_t), address, about)
   end subroutine write_integers
 
   subroutine write_integer_table(self, path, values, about)
@@ -255,9 +258,12 @@ contains
     character(len=*), intent(in) :: path
     integer, intent(in), contiguous, target :: values(:, :)  !< (columns, rows)
     type(about_t), intent(in) :: about
+    type(c_ptr) :: address
 
+    address = c_null_ptr
+    if (size(values) > 0) address = c_loc(values)
     call write_dataset(self, path, h5t_std_i32le, h5t_native_integer, &
-                       shape(values, kind=hsize_t), c_loc(values), about)
+                       shape(values, kind=hsize_t), address, about)
   end subroutine write_integer_table
 
   subroutine write_reals(self, path, values, about)
@@ -265,9 +271,12 @@ contains
     character(len=*), intent(in) :: path
     real(wp), intent(in), contiguous, target :: values(:)
     type(about_t), intent(in) :: about
+    type(c_ptr) :: address
 
+    address = c_null_ptr
+    if (size(values) > 0) address = c_loc(values)
     call write_dataset(self, path, h5t_ieee_f64le, h5t_native_double, &
-                       shape(values, kind=hsize_t), c_loc(values), about)
+                       shape(values, kind=hsize_t), address, about)
   end subroutine write_reals
 
   subroutine write_real_table(self, path, values, about)
@@ -275,9 +284,12 @@ contains
     character(len=*), intent(in) :: path
     real(wp), intent(in), contiguous, target :: values(:, :)  !< (columns, rows)
     type(about_t), intent(in) :: about
+    type(c_ptr) :: address
 
+    address = c_null_ptr
+    if (size(values) > 0) address = c_loc(values)
     call write_dataset(self, path, h5t_ieee_f64le, h5t_native_double, &
-                       shape(values, kind=hsize_t), c_loc(values), about)
+                       shape(values, kind=hsize_t), address, about)
   end subroutine write_real_table
 
   !> One text, whatever its length.

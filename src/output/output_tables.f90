@@ -116,7 +116,8 @@ contains
     type(hdf5_file_t), intent(inout) :: file
     real(wp), intent(in), contiguous, target :: values(:)
 
-    call append_rows(self, file, h5t_native_double, size(values), c_loc(values))
+    if (size(values) > 0) &
+      call append_rows(self, file, h5t_native_double, size(values), c_loc(values))
   end subroutine append_reals
 
   !> Rows of a table.
@@ -125,7 +126,8 @@ contains
     type(hdf5_file_t), intent(inout) :: file
     real(wp), intent(in), contiguous, target :: values(:, :)   !< (columns, rows)
 
-    call append_rows(self, file, h5t_native_double, size(values, 2), c_loc(values))
+    if (size(values) > 0) &
+      call append_rows(self, file, h5t_native_double, size(values, 2), c_loc(values))
   end subroutine append_real_table
 
   subroutine append_rows(self, file, given, rows, values)
@@ -138,7 +140,7 @@ contains
     integer(hid_t) :: in_memory, in_file
     integer :: status, k
 
-    if (allocated(file%failure) .or. rows == 0) return
+    if (allocated(file%failure)) return
     k = 3 - self%rank
     first = [0_hsize_t, self%rows]
     added = [self%columns, int(rows, hsize_t)]

@@ -28,7 +28,7 @@ contains
     call open_dataset(path, name, file, dataset, extents)
     allocate (values(product(extents)))
     values = 0.0_wp
-    address = c_loc(values)
+    if (size(values) > 0) address = c_loc(values)
     if (size(values) > 0) call h5dread_f(dataset, h5t_native_double, address, status)
     call close_dataset(file, dataset)
   end subroutine get_reals
@@ -45,7 +45,7 @@ contains
     call open_dataset(path, name, file, dataset, extents)
     allocate (values(product(extents)))
     values = 0
-    address = c_loc(values)
+    if (size(values) > 0) address = c_loc(values)
     if (size(values) > 0) call h5dread_f(dataset, h5t_native_integer, address, status)
     call close_dataset(file, dataset)
   end subroutine get_integers

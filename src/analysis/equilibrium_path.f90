@@ -1,0 +1,120 @@
+!> What all ways along an equilibrium path share: states to come back to, options, messages.
+module equilibrium_path
+  use kinds, only: wp
+  use errors, only: error_t, fail, exit_solve
+  use text, only: to_text, plural
+  use model_data, only: model_t, analysis_t, control_displacement
+  use nodal_state, only: state_t
+  use system_data, only: system_t
+  use system_assembly, only: iterate_t
+  use system_names, only: coordinate_name, strain_name, member_name
+  use newton_method, only: newton_t, newton_outcome_t, newton_slow, newton_distorted
+  use recorder, only: step_t
+  implicit none
+  private
+
+  public :: safe_t, keep_safe, go_back, newton_options, check_dropped, failure, reason, parameter_name
+
+  !> A state to come back to.
+  type :: safe_t
+    type(state_t) :: state
+    real(wp), allocatable :: stress(:), level(:)
+  end type safe_t
+
+contains
+
+  !> Remember the present state and the levels of the patterns.
+  pure subroutine keep_safe(iterate, level, safe)
+    type(iterate_t), intent(in) :: iterate
+    real(wp), intent(in) :: level(:)
+    type(safe_t), intent(inout) :: safe
+
+    if (.not. allocated(safe%stress)) &
+      allocate (safe%stress(size(iterate%stress)), safe%level(size(level)))
+    safe%state = iterate%state
+    safe%stress = iterate%stress
+    safe%level = level
+  end subroutine keep_safe
+
+  !> Back to what `keep_safe` remembered; the iterate is not assembled there.
+  pure subroutine go_back(safe, iterate, level)
+    type(safe_t), intent(in) :: safe
+    type(iterate_t), intent(inout) :: iterate
+    real(wp), intent(inout) :: level(:)
+
+    iterate%state = safe%state
+    iterate%stress = safe%stress
+    level = safe%level
+  end subroutine go_back
+
+  !> What went wrong, in one sentence: step, iteration, residual and where it is worst.
+  function failure(model, system, analysis, reached, record, outcome) result(message)
+    type(model_t), intent(in) :: model
+    type(system_t), intent(in) :: system
+    type(analysis_t), intent(in) :: analysis
+    real(wp), intent(in) :: reached
+    type(step_t), intent(in) :: record
+    type(newton_outcome_t), intent(in) :: outcome
+    character(len=:), allocatable :: message
+
+    message = "no equilibrium found in step "//to_text(record%step)//" of "// &
+              to_text(analysis%steps)//" beyond "//parameter_name(analysis)//" "// &
+              to_text(reached)//" ("// &
+              plural(record%cutbacks, "cut-back")//"): "//reason(model, outcome)
+    if (outcome%worst > 0) message = message//"; iteration "//to_text(outcome%last%iteration)// &
+      ": largest unbalanced force "//to_text(outcome%last%residual, 3)//" of the loads at "// &
+      coordinate_name(model, outcome%worst)
+    if (outcome%last%constraint > 1.0e-9_wp) message = message//", a fixed strain is off by "// &
+      to_text(outcome%last%constraint*system%length, 3)
+  end function failure
+
+  function reason(model, outcome) result(words)
+    type(model_t), intent(in) :: model
+    type(newton_outcome_t), intent(in) :: outcome
+    character(len=:), allocatable :: words
+
+    select case (outcome%status)
+    case (newton_slow)
+      words = "not converged after "//plural(outcome%last%iteration, "iteration")
+    case (newton_distorted)
+      words = member_name(model, outcome%element)//" turns too far within itself: divide it"
+    case default
+      words = "the iteration diverged"
+    end select
+  end function reason
+
+  pure function newton_options(analysis) result(options)
+    type(analysis_t), intent(in) :: analysis
+    type(newton_t) :: options
+
+    if (analysis%tolerance > 0) options%tolerance = analysis%tolerance
+    if (analysis%iterations > 0) options%iterations = analysis%iterations
+  end function newton_options
+
+  !> A fixed strain that was left out because others imply it must have stayed zero.
+  subroutine check_dropped(model, system, iterate, error)
+    type(model_t), intent(in) :: model
+    type(system_t), intent(in) :: system
+    type(iterate_t), intent(in) :: iterate
+    type(error_t), allocatable, intent(out) :: error
+    integer :: k
+
+    do k = 1, size(system%dropped)
+      if (.not. system%dropped(k)) cycle
+      if (abs(iterate%strain(k)) <= 1.0e-8_wp*system%length) cycle
+      call fail(error, exit_solve, "the constraints contradict each other: "// &
+                strain_name(model, system, k)//", redundant at the start, is off by "// &
+                to_text(iterate%strain(k), 3))
+      return
+    end do
+  end subroutine check_dropped
+
+  pure function parameter_name(analysis) result(name)
+    type(analysis_t), intent(in) :: analysis
+    character(len=:), allocatable :: name
+
+    name = "load factor"
+    if (analysis%control == control_displacement) name = "displacement"
+  end function parameter_name
+
+end module equilibrium_path
