@@ -14,6 +14,7 @@ module analysis_arc
   use system_measure, only: measure_t, new_measure
   use newton_method, only: newton_outcome_t, find_equilibrium, newton_converged, newton_interrupted
   use path_control, only: control_t, arc_product
+  use stability_watch, only: watch_t, start_watch, watch_step
   use equilibrium_path, only: safe_t, keep_safe, go_back, newton_options, check_dropped, failure
   use recorder, only: recorder_t, step_t, iteration_t
   implicit none
@@ -30,6 +31,7 @@ module analysis_arc
   !> Where the path is and how it goes on.
   type :: path_t
     type(control_t) :: control
+    type(watch_t) :: watch
     type(measure_t) :: stop
     real(wp) :: first_arc = 0.0_wp
     real(wp) :: goal = 0.0_wp          !< load factor at the end
@@ -55,12 +57,15 @@ contains
     integer :: step
 
     call start_path(model, system, analysis, level, path)
+    call start_watch(system, solver, analysis%stability, level, iterate, path%watch, error)
+    if (allocated(error)) return
     do step = 1, analysis%most_steps
       record = step_t(step=step)
       call take_step(model, system, solver, analysis, path, level, iterate, recorder, record, error)
       if (.not. allocated(error)) call check_dropped(model, system, iterate, error)
       if (allocated(error)) return
       record%factor = level(analysis%pattern)
+      record%unstable = path%watch%unstable
       call get_results(model, system, iterate, results)
       call recorder%step(record, results, error)
       if (allocated(error) .or. path%ended) return
@@ -125,7 +130,12 @@ contains
       call shorten(model, system, analysis, path, level, outcome, recorder, record, error)
       if (allocated(error)) return
     end do
+    record%arc = sqrt(arc_product(system, path%control%total, path%control%total))
+    path%control%target = level(analysis%pattern)
     call end_exactly(system, solver, analysis, path, safe, level, iterate, recorder, record, error)
+    if (allocated(error)) return
+    call watch_step(system, solver, newton_options(analysis), path%control, safe, record%step, &
+                    path%watch, level, iterate, recorder, error)
     if (.not. path%ended) call lengthen(system, path, outcome%last%iteration)
   end subroutine take_step
 

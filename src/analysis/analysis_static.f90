@@ -16,6 +16,7 @@ module analysis_static
   use equilibrium_path, only: safe_t, keep_safe, go_back, newton_options, check_dropped, failure, &
                               reason, parameter_name
   use path_control, only: control_t
+  use stability_watch, only: watch_t, start_watch, watch_step
   use system_measure, only: new_measure
   use recorder, only: recorder_t, step_t, iteration_t
   implicit none
@@ -42,9 +43,12 @@ contains
     type(results_t) :: results
     type(control_t) :: control
     type(step_t) :: record
+    type(watch_t) :: watch
     real(wp) :: start, end
     integer :: step
 
+    call start_watch(system, solver, analysis%stability, level, iterate, watch, error)
+    if (allocated(error)) return
     control = new_control(model, analysis)
     start = parameter_value(control, level, iterate)
     end = analysis%factor
@@ -52,10 +56,11 @@ contains
     do step = 1, analysis%steps
       record = step_t(step=step)
       call reach(model, system, solver, analysis, control, start + (end - start)*step/analysis%steps, &
-                 level, iterate, recorder, record, error)
+                 watch, level, iterate, recorder, record, error)
       if (.not. allocated(error)) call check_dropped(model, system, iterate, error)
       if (allocated(error)) return
       if (analysis%pattern > 0) record%factor = level(analysis%pattern)
+      record%unstable = watch%unstable
       call get_results(model, system, iterate, results)
       call recorder%step(record, results, error)
       if (allocated(error)) return
@@ -88,14 +93,15 @@ contains
   end function parameter_value
 
   !> Go to a value of the parameter, in one increment or several.
-  subroutine reach(model, system, solver, analysis, control, goal, level, iterate, recorder, record, &
-                   error)
+  subroutine reach(model, system, solver, analysis, control, goal, watch, level, iterate, recorder, &
+                   record, error)
     type(model_t), intent(in) :: model
     type(system_t), intent(in) :: system
     type(solver_t), intent(inout) :: solver
     type(analysis_t), intent(in) :: analysis
     type(control_t), intent(inout) :: control
     real(wp), intent(in) :: goal
+    type(watch_t), intent(inout) :: watch
     real(wp), intent(inout) :: level(:)
     type(iterate_t), intent(inout) :: iterate
     class(recorder_t), intent(inout) :: recorder
@@ -120,6 +126,9 @@ contains
       record%iterations = record%iterations + outcome%last%iteration
       if (allocated(error)) return
       if (outcome%status == newton_converged) then
+        call watch_step(system, solver, newton_options(analysis), control, safe, record%step, watch, &
+                        level, iterate, recorder, error)
+        if (allocated(error)) return
         left = left - share
         if (outcome%last%iteration <= easy) share = 2*share
         share = min(share, left)

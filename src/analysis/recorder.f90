@@ -2,7 +2,8 @@
 !> Analyses know only this; files and terminals are behind it.
 module recorder
   use kinds, only: wp
-  use errors, only: error_t
+  use errors, only: error_t, fail, exit_solve
+  use text, only: to_text
   use model_data, only: analysis_t
   use system_results, only: results_t
   implicit none
@@ -24,11 +25,25 @@ module recorder
     real(wp) :: factor = 0.0_wp       !< load factor
     integer :: iterations = 0         !< spent on it, cut-backs included
     integer :: cutbacks = 0
+    integer :: unstable = -1          !< unstable modes; -1: not asked for
+    real(wp) :: arc = 0.0_wp          !< arc length of the step, 0 if not controlled by it
     type(iteration_t) :: last         !< the converged iteration
   end type step_t
 
+  integer, parameter, public :: critical_limit = 1, critical_bifurcation = 2
+
+  !> A critical point of the path.
+  type, public :: critical_t
+    integer :: step = 0                    !< recorded step behind it
+    integer :: kind = critical_limit       !< limit point or bifurcation
+    real(wp) :: factor = 0.0_wp            !< load factor
+    integer :: before = 0, behind = 0      !< unstable modes on either side
+    real(wp), allocatable :: mode(:, :)    !< (7, nodes) the critical mode: X Y Z RX RY RZ W
+  end type critical_t
+
   type, abstract, public :: recorder_t
   contains
+    procedure :: critical
     procedure(begin_interface), deferred :: begin
     procedure(iteration_interface), deferred :: iteration
     procedure(remark_interface), deferred :: remark
@@ -90,5 +105,20 @@ module recorder
       class(recorder_t), intent(inout) :: self
     end function interrupted_interface
   end interface
+
+contains
+
+  !> A critical point was passed: a line of it, unless a recorder keeps more.
+  subroutine critical(self, point, error)
+    class(recorder_t), intent(inout) :: self
+    type(critical_t), intent(in) :: point
+    type(error_t), allocatable, intent(out) :: error
+    character(len=*), parameter :: kind(2) = ["limit point", "bifurcation"]
+
+    call self%remark("step "//to_text(point%step)//": "//kind(point%kind)//" at load factor "// &
+                     to_text(point%factor, 8)//", unstable modes "//to_text(point%before)// &
+                     " -> "//to_text(point%behind))
+    if (point%step < 0) call fail(error, exit_solve, "a critical point without a step")
+  end subroutine critical
 
 end module recorder

@@ -1,6 +1,6 @@
 !> A deck being read: what its cards said, not yet brought together.
 !>
-!> Cards may refer to what stands further down, so lists and loads are kept as written until the end.
+!> Cards may refer to what stands further down: lists and loads are kept as written until the end.
 module deck_draft
   use kinds, only: wp
   use text, only: newline

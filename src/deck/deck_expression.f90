@@ -255,8 +255,8 @@ contains
     if (code <= first_of_two) call emit(p%program, code)
     wanted = merge(2, 1, code >= first_of_two)
     if (given < wanted .or. (given > wanted .and. code <= first_of_two)) &
-      call complain(p, name//" takes "//trim(merge("one argument ", "two arguments", wanted == 1)), &
-                    start, len(name))
+      call complain(p, name//" takes "//trim(merge("one argument ", "two arguments", &
+                                                   wanted == 1)), start, len(name))
   end subroutine read_call
 
   subroutine close_parenthesis(p)

@@ -31,7 +31,8 @@ contains
       if (usage(row)%literal > 0) call choose_variant(card, usage, report, row)
       return
     end if
-    best = nearest_word(name, usage%name)
+    best = ""
+    if (report%errors() < 1000) best = nearest_word(name, usage%name)
     if (best == "") then
       call report%add_error(card%place(1), "unknown keyword "//quoted(card%word(1)))
     else

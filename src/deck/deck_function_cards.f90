@@ -1,6 +1,8 @@
 !> FUNCTION cards: functions of the load factor or of time.
 module deck_function_cards
+  use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
   use kinds, only: wp
+  use formula, only: formula_t, formula_value, push_variable
   use model_data, only: function_t, function_ramp, function_sine, function_step, function_table, &
                         function_formula
   use deck_card, only: card_t
@@ -84,11 +86,24 @@ contains
       draft%scope = scope_t(has_t=.true.)
       call formula_of(word, card%place(4), draft, function%formula, ok)
       draft%scope = scope_t()
+      if (ok) call check_constant(card, draft, function%formula, ok)
     end if
     function%kind = function_formula
     call define_name(card, 2, draft%report, draft%functions, ok, k)
     if (k > 0) call put(card, draft, k, function)
   end subroutine read_formula
+
+  !> An expression without t must have a finite value.
+  subroutine check_constant(card, draft, program, ok)
+    type(card_t), intent(in) :: card
+    type(draft_t), intent(inout) :: draft
+    type(formula_t), intent(in) :: program
+    logical, intent(out) :: ok
+
+    ok = any(program%code(:program%steps) == push_variable)
+    if (.not. ok) ok = ieee_is_finite(formula_value(program, 0.0_wp))
+    if (.not. ok) call draft%report%add_error(card%place(4), "the expression has no finite value")
+  end subroutine check_constant
 
   subroutine store(card, draft, kind, parameter, table)
     type(card_t), intent(in) :: card

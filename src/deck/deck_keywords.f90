@@ -19,8 +19,8 @@ contains
   function keywords() result(table)
     type(keyword_t), allocatable :: table(:)
 
-    table = [form_keywords(), model_keywords(), function_keywords(), load_keywords(), &
-             analysis_keywords()]
+    table = [form_keywords(), model_keywords(), element_keywords(), function_keywords(), &
+             load_keywords(), analysis_keywords()]
   end function keywords
 
   !> What concerns the deck itself.
@@ -32,8 +32,8 @@ contains
         "names the model in the result file", &
         "TITLE ""Channel cantilever""", "", read_title), &
       keyword_t("SET", "form", "name:word value:text", "", &
-        "defines a name for expressions, a number or a word; once, and `-D name=value` replaces "// &
-        "the value", &
+        "defines a name for expressions, a number or a word; once, and `-D name=value` "// &
+        "replaces the value", &
         "SET L 900|NODE 2 {L/2} 0 0", "", read_set), &
       keyword_t("INCLUDE", "form", "file:text", "", &
         "reads another file here; its path counts from the folder of the file with this card", &
@@ -42,13 +42,14 @@ contains
         "END", "END", read_nothing), &
       keyword_t("HALT", "form", "", "", "separates parts of a deck, without meaning", &
         "HALT", "HALT", read_nothing), &
-      keyword_t("VISUALIZATION", "form", "text:text*", "", "ends the deck: nothing behind it is read", &
-        "VISUALIZATION", "VISUALIZATION", read_visualization), &
+      keyword_t("VISUALIZATION", "form", "text:text*", "", &
+        "ends the deck: nothing behind it is read", "VISUALIZATION", "VISUALIZATION", &
+          read_visualization), &
       keyword_t("OUTLEVEL", "form", "level:text*", "", "is ignored, with a note", &
         "OUTLEVEL 0 1", "OUTLEVEL", read_outlevel)]
   end function form_keywords
 
-  !> Nodes, materials, sections, elements.
+  !> Nodes, materials, sections.
   function model_keywords() result(table)
     type(keyword_t), allocatable :: table(:)
 
@@ -64,25 +65,34 @@ contains
         "stiffness-proportional damping", &
         "MATERIAL steel E 21000 NU 0.3 RHO 7.85e-8", "", read_material), &
       keyword_t("SECTION", "model", "name:word CONSTANTS", &
-        "A a:L^2! | IY iy:L^4! | IZ iz:L^4! | IT it:L^4! | IW iw:L^6=0 | YS ys:L=0 | ZS zs:L=0 | "// &
-        "DY dy:L^2 | DZ dz:L^2 | DW dw:L^4 | DYZ dyz:L^2=0 | DYW dyw:L^3=0 | DZW dzw:L^3=0 | "// &
+        "A a:L^2! | IY iy:L^4! | IZ iz:L^4! | IT it:L^4! | IW iw:L^6=0 | YS ys:L=0 | "// &
+        "ZS zs:L=0 | DY dy:L^2 | DZ dz:L^2 | DW dw:L^4 | DYZ dyz:L^2=0 | DYW dyw:L^3=0 | DZW "// &
+        "dzw:L^3=0 | "// &
         "BY by:L=0 | BZ bz:L=0 | BW bw:1=0 | IR ir:L^6=0", &
         "gives a section by its constants about the principal axes through the centroid: area, "// &
-        "second moments, torsion and warping constants, shear centre, shear rigidities (without "// &
-        "them rigid in shear), Wagner constants", &
+        "second moments, torsion and warping constants, shear centre, shear rigidities "// &
+        "(without them rigid in shear), Wagner constants", &
         "SECTION tube CONSTANTS A 10 IY 80 IZ 90 IT 170|SECTION c CONSTANTS A 58.8 IY 8038.7 "// &
         "IZ 559.9 IT 35.4 IW 78943 YS -6.08 &| DY 13.4 DZ 26.8 DW 4339 DZW 59.4 BZ 31.6", &
-        "", read_constants), &
+        "", read_constants)]
+  end function model_keywords
+
+  !> Elements, their modes, groups and markers.
+  function element_keywords() result(table)
+    type(keyword_t), allocatable :: table(:)
+
+    table = [ &
       keyword_t("BEAMW", "model", &
         "id:id p:node q:node | id:id p:node q:node ox:1 oy:1 oz:1 | "// &
         "id:id Xp:node Rp:node Wp:node Xq:node Rq:node Wq:node | "// &
         "id:id Xp:node Rp:node Wp:node Xq:node Rq:node Wq:node ox:1 oy:1 oz:1", &
-        "SECTION name:word | MATERIAL name:word | SECOND order:CONSISTENT/JONKER/NONE=CONSISTENT | "// &
-        "SHEAR state:ON/OFF=ON | MASS kind:CONSISTENT/LUMPED/NONE=CONSISTENT | "// &
+        "SECTION name:word | MATERIAL name:word | "// &
+        "SECOND order:CONSISTENT/JONKER/NONE=CONSISTENT | SHEAR state:ON/OFF=ON | MASS "// &
+        "kind:CONSISTENT/LUMPED/NONE=CONSISTENT | "// &
         "ROTARY state:ON/OFF=ON | DIVIDE parts:count=1 | RIGID", &
         "is a beam with warping between nodes p and q; o is the direction of the section's y "// &
-        "axis. With SECTION and MATERIAL all eight modes are flexible, without SECTION none is. "// &
-        "DIVIDE n makes parts id.1 to id.n and inner nodes id.1 to id.(n-1)", &
+        "axis. With SECTION and MATERIAL all eight modes are flexible, without SECTION none is."// &
+        " DIVIDE n makes parts id.1 to id.n and inner nodes id.1 to id.(n-1)", &
         "NODE 1 0 0 0|NODE 2 900 0 0|MATERIAL steel E 21000 NU 0.3|SECTION tube CONSTANTS A 10 "// &
         "IY 80 IZ 90 IT 170|BEAMW 1 1 2 0 1 0 SECTION tube MATERIAL steel DIVIDE 10", &
         "BEAMW", read_beamw), &
@@ -110,7 +120,7 @@ contains
         "names a point fixed to a section at a node, at (oy, oz) or AT POINT k of the section; "// &
         "OF says whose section where several meet", &
         "MARKER corner 2 AT -2.456 14.2", "", read_marker)]
-  end function model_keywords
+  end function element_keywords
 
   !> Functions of the load factor.
   function function_keywords() result(table)
@@ -148,9 +158,9 @@ contains
       keyword_t("XF", "load", "nodes:nodes B:F*L^2 | nodes:nodes Fx:F Fy:F Fz:F | "// &
         "nodes:nodes Fx:F Fy:F Fz:F Mx:F*L My:F*L Mz:F*L | "// &
         "nodes:nodes Fx:F Fy:F Fz:F Mx:F*L My:F*L Mz:F*L B:F*L^2", load_options, &
-        "is a dead load: a force (a moment on a node that is only rotational), force and moment, "// &
-        "these and a bimoment, or a bimoment (node that is only warping); at the node, AT a point "// &
-        "of the section or at a marker; FUNCTION replaces the load factor", &
+        "is a dead load: a force (a moment on a node that is only rotational), force and "// &
+        "moment, these and a bimoment, or a bimoment (node that is only warping); at the node, "// &
+        "AT a point of the section or at a marker; FUNCTION replaces the load factor", &
         "XF 2 0 0 -6|XF 3 0 0 -1 AT -2.456 14.2|XF 4 0 0 0 5 0 0 FUNCTION wave", &
         "XF", read_xf), &
       keyword_t("DELXF", "load", "nodes:nodes B:F*L^2 | nodes:nodes Fx:F Fy:F Fz:F | "// &

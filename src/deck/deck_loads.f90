@@ -225,7 +225,7 @@ contains
         load%moment = value(4:6)
         if (record%values == 7) load%bimoment = value(7)
       end select
-      if (ok .or. draft%elements_incomplete) return
+      if (ok .or. choice%loose(i) .or. draft%elements_incomplete) return
       call draft%report%add_error(choice%place(i), plural(record%values, "value")// &
                                   " do not fit "//name//", which has "//kinds(node%exists), &
                                   "3: force, or moment if only rotation; 6: both; 7: with "// &

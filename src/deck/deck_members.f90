@@ -38,7 +38,7 @@ contains
     type(beam_t), intent(inout) :: beam
     type(member_t) :: member
     real(wp) :: start(3)
-    integer :: part, kind, node(3)
+    integer :: part, node(3)
 
     beam%first_member = draft%members + 1
     member%id = beam%id
@@ -68,14 +68,23 @@ contains
       end if
       member%node(:, 2) = node
       if (beam%divide > 1) member%part = part
-      draft%members = draft%members + 1
-      draft%model%member(draft%members) = member
-      do kind = 1, 3
-        draft%model%node(member%node(kind, 1))%exists(kind) = .true.
-        draft%model%node(member%node(kind, 2))%exists(kind) = .true.
-      end do
+      call add_member(draft, member)
     end do
   end subroutine expand
+
+  !> Keep an element; its nodes exist from now on.
+  subroutine add_member(draft, member)
+    type(draft_t), intent(inout) :: draft
+    type(member_t), intent(in) :: member
+    integer :: kind
+
+    draft%members = draft%members + 1
+    draft%model%member(draft%members) = member
+    do kind = 1, 3
+      draft%model%node(member%node(kind, 1))%exists(kind) = .true.
+      draft%model%node(member%node(kind, 2))%exists(kind) = .true.
+    end do
+  end subroutine add_member
 
   pure logical function shear_known(draft, section)
     type(draft_t), intent(in) :: draft
@@ -224,7 +233,8 @@ contains
       associate (member => draft%model%member(m))
         if (member%section /= 0) then
           if (.not. choice%loose(i)) call draft%report%add_error(choice%place(i), "element "// &
-            id_text(member%id, choice%part(i))//" has a SECTION, which gives its stiffness and mass")
+            id_text(member%id, choice%part(i))// &
+            " has a SECTION, which gives its stiffness and mass")
           return
         end if
         if (record%kind == record_stiffness) then

@@ -77,8 +77,8 @@ contains
     else if (any(reserved_names == name)) then
       call draft%report%add_error(card%place(2), quoted(name)//" is reserved")
     else if (i > 0) then
-      call draft%report%add_error(card%place(2), quoted(name)//" is already set", "first set at "// &
-                                  draft%report%location(draft%settings%place(i)))
+      call draft%report%add_error(card%place(2), quoted(name)//" is already set", &
+                                  "first set at "//draft%report%location(draft%settings%place(i)))
     else
       overridden = .false.
       do i = 1, size(draft%override)

@@ -89,7 +89,8 @@ contains
                  self%defined(:self%table%entries)%line > 0)
     do i = 1, self%table%entries
       if (self%defined(i)%line > 0 .or. self%used(i)%line == 0) cycle
-      best = nearest_word(trim(self%table%name(i)), known)
+      best = ""
+      if (report%errors() < 1000) best = nearest_word(trim(self%table%name(i)), known)
       hint = ""
       if (best /= "") hint = "did you mean "//best//"?"
       call report%add_error(self%used(i), "no "//trim(self%noun)//" named "// &

@@ -52,7 +52,8 @@ contains
       case (select_all)
         do k = 1, merge(draft%nodes, draft%beams, of_nodes)
           if (of_nodes) then
-            if (any(draft%model%node(k)%exists)) call append(choice, k, 0, draft%selection(i), .true.)
+            if (any(draft%model%node(k)%exists)) &
+              call append(choice, k, 0, draft%selection(i), .true.)
           else
             call append(choice, k, 0, draft%selection(i), .true.)
           end if

@@ -2,8 +2,8 @@
 !>
 !> Forms are separated by `|`; an argument is `name:kind`, with `?` if it may be left out and `*` or
 !> `+` if it may be repeated; an argument without kind is a word to be written as it stands.
-!> Options are separated by `|`: `NAME value:kind ...`, with `=default` or `!` (required) at the end.
-!> A kind is one of `kind_names`, a dimension such as `F*L^-2` or `1` (a real number), or
+!> Options are separated by `|`: `NAME value:kind ...`, with `=default` or `!` (required) at the
+!> end. A kind is one of `kind_names`, a dimension such as `F*L^-2` or `1` (a real number), or
 !> alternatives `ON/OFF`.
 module deck_usage
   use deck_card, only: most_options

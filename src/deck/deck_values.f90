@@ -275,14 +275,10 @@ contains
       ok = .false.
       return
     end if
-    range%first = id(1)
-    range%last = id(2)
+    if (part(1) > 0) range%id = id(1)
+    range%first = merge(part(1), id(1), part(1) > 0)
+    range%last = merge(part(2), id(2), part(1) > 0)
     range%step = id(3)
-    if (part(1) > 0) then
-      range%id = id(1)
-      range%first = part(1)
-      range%last = part(2)
-    end if
     if ((range%last - range%first)*sign(1, range%step) >= 0) return
     call draft%report%add_error(place, "the range "//quoted(word)//" is empty")
     ok = .false.

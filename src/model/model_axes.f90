@@ -55,7 +55,8 @@ contains
     ey = ey - dot_product(ey, ex)*ex
     if (norm2(ey) <= tie) then
       call report%add_error(member%place, "the orientation of element "//to_text(member%id)// &
-                            " is parallel to the beam", "o is the direction of the section's y axis")
+                            " is parallel to the beam", &
+                            "o is the direction of the section's y axis")
       return
     end if
     ey = ey/norm2(ey)

@@ -250,7 +250,7 @@ contains
     address = c_null_ptr
     if (size(values) > 0) address = c_loc(values)
     call write_dataset(self, path, h5t_std_i32le, h5t_native_integer, &
-                       shape(values, kind=hsize_t), address, about)
+                       [size(values, kind=hsize_t)], address, about)
   end subroutine write_integers
 
   subroutine write_integer_table(self, path, values, about)
@@ -263,7 +263,7 @@ contains
     address = c_null_ptr
     if (size(values) > 0) address = c_loc(values)
     call write_dataset(self, path, h5t_std_i32le, h5t_native_integer, &
-                       shape(values, kind=hsize_t), address, about)
+                       int([size(values, 1), size(values, 2)], hsize_t), address, about)
   end subroutine write_integer_table
 
   subroutine write_reals(self, path, values, about)
@@ -276,7 +276,7 @@ contains
     address = c_null_ptr
     if (size(values) > 0) address = c_loc(values)
     call write_dataset(self, path, h5t_ieee_f64le, h5t_native_double, &
-                       shape(values, kind=hsize_t), address, about)
+                       [size(values, kind=hsize_t)], address, about)
   end subroutine write_reals
 
   subroutine write_real_table(self, path, values, about)
@@ -289,7 +289,7 @@ contains
     address = c_null_ptr
     if (size(values) > 0) address = c_loc(values)
     call write_dataset(self, path, h5t_ieee_f64le, h5t_native_double, &
-                       shape(values, kind=hsize_t), address, about)
+                       int([size(values, 1), size(values, 2)], hsize_t), address, about)
   end subroutine write_real_table
 
   !> One text, whatever its length.
@@ -307,7 +307,7 @@ contains
     character(len=*), intent(in) :: path, words(:)
     type(about_t), intent(in) :: about
 
-    call write_strings(self, path, words, shape(words, kind=hsize_t), about)
+    call write_strings(self, path, words, [size(words, kind=hsize_t)], about)
   end subroutine write_texts
 
   subroutine write_strings(self, path, words, extents, about)

@@ -4,7 +4,7 @@ module output_log
   use, intrinsic :: iso_fortran_env, only: output_unit, error_unit
   use kinds, only: wp, i8
   use text, only: to_text, plural
-  use model_data, only: model_t, analysis_t
+  use model_data, only: model_t, analysis_t, control_load, control_arc
   use program_version, only: program_name, version
   use recorder, only: step_t, iteration_t
   use system_results, only: results_t
@@ -37,8 +37,10 @@ module output_log
     logical :: progress = .false.       !< a progress line may be shown
     logical :: shown = .false.          !< and is now
     integer(i8) :: start = 0, shown_at = 0   !< clock
-    integer :: steps = 0                !< of the present analysis, in all
+    integer :: steps = 0                !< of the present analysis, at most
     integer :: every = 1                !< steps from one row of its table to the next
+    logical :: counted = .true.         !< it makes exactly so many steps
+    character(len=:), allocatable :: row     !< of the last step, if not yet printed
     integer :: warnings = 0
     character(len=20), allocatable :: node(:)
     type(summary_t), allocatable :: summary(:)
@@ -99,16 +101,17 @@ contains
     type(analysis_t), intent(in) :: analysis
 
     self%analyses = number
-    self%steps = analysis%steps
-    self%every = row_distance(analysis%steps)
+    self%counted = analysis%control /= control_arc
+    self%steps = merge(analysis%steps, analysis%most_steps, self%counted)
+    self%every = row_distance(self%steps)
+    self%row = ""
     if (self%level == log_verbose) self%every = 1
     associate (summary => self%summary(number))
       summary%name = to_text(number)//" "//trim(kind_names(analysis%kind))
       if (analysis%name /= "") summary%name = summary%name//" "//trim(analysis%name)
       summary%where = ""
       call say(self, "")
-      call say(self, "Analysis "//summary%name//": "//plural(analysis%steps, "step")// &
-               " to load factor "//to_text(analysis%factor))
+      call say(self, "Analysis "//summary%name//": "//purpose(analysis))
     end associate
     if (self%level == log_verbose) then
       call say(self, "    step   load factor   iteration   residual   increment")
@@ -117,6 +120,20 @@ contains
                "   largest displacement")
     end if
   end subroutine begin_analysis
+
+  pure function purpose(analysis)
+    type(analysis_t), intent(in) :: analysis
+    character(len=:), allocatable :: purpose
+
+    purpose = plural(analysis%steps, "step")
+    if (analysis%control == control_arc) purpose = "at most "//plural(analysis%most_steps, &
+                                                   "step")//" along the path,"
+    if (analysis%control == control_load .or. analysis%control == control_arc) then
+      purpose = purpose//" to load factor "//to_text(analysis%factor)
+    else
+      purpose = purpose//" to displacement "//to_text(analysis%controlled%value)
+    end if
+  end function purpose
 
   !> 1, 2, 5, 10, ...: so many steps from row to row that the table stays short.
   pure integer function row_distance(steps) result(every)
@@ -204,11 +221,20 @@ contains
       summary%largest = norm2(results%displacement(:, largest))
       summary%where = trim(self%node(largest))
       if (self%level == log_verbose) return
-      if (step%step > 1 .and. step%step < self%steps .and. modulo(step%step, self%every) > 0) return
       tail = right(to_text(summary%largest, 5), 14)//" at node "//summary%where
     end associate
-    call say(self, row(step%step, step%factor, step%iterations, 13, step%last)//tail)
+    self%row = row(step%step, step%factor, step%iterations, 13, step%last)//tail
+    if (step%step > 1 .and. modulo(step%step, self%every) > 0) return
+    call print_row(self)
   end subroutine log_step
+
+  !> Print the row of the last step, unless it was.
+  subroutine print_row(self)
+    type(run_log_t), intent(inout) :: self
+
+    if (self%row /= "") call say(self, self%row)
+    self%row = ""
+  end subroutine print_row
 
   subroutine finish_analysis(self, complete)
     class(run_log_t), intent(inout) :: self
@@ -216,6 +242,7 @@ contains
 
     self%summary(self%analyses)%complete = complete
     call hide_progress(self)
+    call print_row(self)
   end subroutine finish_analysis
 
   !> The summary: a row for each analysis, then where the results are.
@@ -275,17 +302,18 @@ contains
   subroutine show_progress(self, iteration)
     type(run_log_t), intent(inout) :: self
     type(iteration_t), intent(in) :: iteration
-    integer :: percent, status
+    character(len=:), allocatable :: line
+    integer :: status
 
     if (.not. self%progress) return
     if (seconds_since(self%shown_at) < merge(pause, patience, self%shown_at > self%start)) return
     call system_clock(self%shown_at)
     self%shown = .true.
-    percent = (100*(iteration%step - 1))/max(1, self%steps)
-    write (error_unit, "(a)", advance="no", iostat=status) erase// &
-      trim(self%summary(self%analyses)%name)//": step "//to_text(iteration%step)//" of "// &
-      to_text(self%steps)//", load factor "//to_text(iteration%factor)//", iteration "// &
-      to_text(iteration%iteration)//", "//to_text(percent)//" %"
+    line = self%summary(self%analyses)%name//": step "//to_text(iteration%step)//" of "// &
+           to_text(self%steps)//", load factor "//to_text(iteration%factor)//", iteration "// &
+           to_text(iteration%iteration)
+    if (self%counted) line = line//", "//to_text((100*(iteration%step - 1))/self%steps)//" %"
+    write (error_unit, "(a)", advance="no", iostat=status) erase//line
     flush (error_unit, iostat=status)
   end subroutine show_progress
 

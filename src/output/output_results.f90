@@ -2,7 +2,7 @@
 module output_results
   use kinds, only: i8
   use errors, only: error_t, fail, exit_io
-  use model_data, only: model_t, analysis_t, name_length
+  use model_data, only: model_t, analysis_t, name_length, control_arc
   use program_version, only: program_name, version
   use recorder, only: step_t
   use system_results, only: results_t, result_modes
@@ -109,7 +109,9 @@ contains
     type(analysis_t), intent(in) :: analysis
     type(error_t), allocatable, intent(out) :: error
     character(len=12) :: digits
+    integer(i8) :: steps
 
+    steps = merge(analysis%most_steps, analysis%steps, analysis%control == control_arc)
     write (digits, "(i0.2)") number
     self%group = "analysis/"//trim(digits)//"_"//trim(kind_names(analysis%kind))
     if (analysis%name /= "") &
@@ -117,11 +119,11 @@ contains
     call self%file%group(self%group)
     call self%file%set_text(self%group, "kind", trim(kind_names(analysis%kind)))
     call self%file%set_number(self%group, "complete", 0)
-    call start_steps(self, int(analysis%steps, i8))
-    call start_nodes(self, int(analysis%steps, i8))
-    call start_markers(self, int(analysis%steps, i8))
-    call start_elements(self, int(analysis%steps, i8))
-    call start_convergence(self, int(analysis%steps, i8))
+    call start_steps(self, steps)
+    call start_nodes(self, steps)
+    call start_markers(self, steps)
+    call start_elements(self, steps)
+    call start_convergence(self, steps)
     call self%file%flush(error)
   end subroutine begin_analysis
 

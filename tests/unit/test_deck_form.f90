@@ -227,7 +227,8 @@ contains
     over(1)%value = "9,5"
     call read_sample("SET length 4|"//frame//"FIX 1|XF 2 1 0 0", model, report, over)
     call expect(report%errors() == 1, "an error")
-    call expect(report%heading(report%item(1)) == "-D length=9,5: '9,5' is not a number", "its text")
+    call expect(report%heading(report%item(1)) == "-D length=9,5: '9,5' is not a number", &
+        "its text")
   end subroutine unknown_setting
 
   subroutine includes()
@@ -267,6 +268,7 @@ contains
                     "SECTION s CONSTANTS A 1 IY 1 IZ 1 IT 1|"// &
                     "BEAMW 1:7:2 {i} {i+2} SECTION s MATERIAL m|FIX 1|XF 9 1 0 0", model)
     call expect(size(model%node) == 5 .and. size(model%member) == 4, "five nodes, four elements")
+    call expect(size(model%node) == 5, "the sizes")
     if (size(model%node) /= 5) return
     call expect_close(model%node(3)%position, [12.0_wp, 25.0_wp, 0.0_wp], 0.0_wp, "node 5")
     call expect(model%member(2)%id == 3 .and. all(model%member(2)%node(:, 2) == 3), "element 3")

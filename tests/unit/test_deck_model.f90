@@ -42,6 +42,7 @@ contains
                     "SECTION s CONSTANTS A 1 IY 2 IZ 3 IT 4 IW 5 YS 6 ZS -7 DY 8 DZ 9 DW 10 "// &
                     "DYZ 0.1 DYW 0.2 DZW 0.3 BY 11 BZ 12 BW 13 IR 14|NODE 1:2 {i} 0 0|"// &
                     "BEAMW 1 1 2 SECTION s MATERIAL a|FIX 1|XF 2 1 0 0", model)
+    call expect(size(model%section) == 1, "the sizes")
     if (size(model%section) /= 1) return
     call expect_close(model%material(1)%g, 80.0_wp, 1.0e-13_wp, "G = E/(2(1+NU))")
     call expect_close([model%material(1)%e, model%material(1)%rho, model%material(1)%damping, &
@@ -62,9 +63,11 @@ contains
 
     call read_sound(frame//"BEAMW 2 2 1 0 0 3 SECTION bar MATERIAL steel SECOND JONKER "// &
                     "MASS LUMPED ROTARY OFF RIGID|FIX 1|XF 2 1 0 0", model)
+    call expect(size(model%member) == 2, "the sizes")
     if (size(model%member) /= 2) return
     associate (a => model%member(1), b => model%member(2))
-      call expect(a%second == second_consistent .and. a%mass == mass_consistent .and. a%rotary .and. &
+      call expect(a%second == second_consistent .and. a%mass == mass_consistent .and. &
+          a%rotary .and. &
                   .not. a%rigid .and. all(a%status == 1), "defaults")
       call expect(.not. a%shear, "no shear without shear rigidities")
       call expect(b%second == second_jonker .and. b%mass == mass_lumped .and. .not. b%rotary .and. &
@@ -82,6 +85,7 @@ contains
     call read_sound("MATERIAL m E 1 G 1|SECTION s CONSTANTS A 1 IY 1 IZ 1 IT 1|NODE 1 1 0 0|"// &
                     "NODE 2 9 4 -4|BEAMW 5 1 2 SECTION s MATERIAL m DIVIDE 4|FIX 1|FIX 5.2 Y|"// &
                     "XF 5.3 1 0 0|RLSE 5.4 6", model)
+    call expect(size(model%member) == 4, "the sizes")
     if (size(model%member) /= 4) return
     call expect(all(model%member%part == [1, 2, 3, 4]), "parts")
     call expect(size(model%node) == 5, "inner nodes")
@@ -101,6 +105,7 @@ contains
     call read_sound(frame//"NODE 3:6 {4*i} 0 0|BEAMW 2:3 {i} {i+1} SECTION bar MATERIAL steel|"// &
                     "BEAMW 4:5 {i} {i+1}|DYNE 2 3 4|DYNE 2 2|RLSE 3 7 5|RLSE 5 1|"// &
                     "DYNE 4 1|ESTIFF 4 1 1 1 1 0 0 0|FIX 1|XF 2 1 0 0", model)
+    call expect(size(model%member) == 5, "the sizes")
     if (size(model%member) /= 5) return
     call expect(all(model%member(1)%status == 1), "all flexible")
     call expect(all(model%member(2)%status == [0, 1, 1, 1, 0, 0, 1, 1]), "DYNE replaces all")
@@ -114,6 +119,7 @@ contains
 
     call read_sound("NODE 1:2 {i} 0 0|BEAMW 1 1 2 DIVIDE 2|DYNE 1 1 2 3 4 5 6|FIX 1|XF 2 1 0 0|"// &
                     "ESTIFF 1 1 2 3 4 5 6 7|EM ALL 8 9 10 11 -12 13", model)
+    call expect(size(model%member) == 2, "the sizes")
     if (size(model%member) /= 2) return
     call expect(all(model%member%has_stiffness) .and. all(model%member%has_inertia), "given")
     call expect_close(model%member(2)%stiffness, [1.0_wp, 2.0_wp, 3.0_wp, 4.0_wp, 5.0_wp, 6.0_wp, &
@@ -128,6 +134,7 @@ contains
 
     call read_sound(frame//"NODE 3 8 0 0|BEAMW 2 2 32 33 3 42 43|FIX 1|FIX 2 Y RZ w|FIX 42 3|"// &
                     "FIX 43 1|FIX 3 2|FIX 32 ry|FIX ALL X|XF 2 1 0 0", model)
+    call expect(size(model%member) == 2, "the sizes")
     if (size(model%member) /= 2) return
     call expect(all(model%node(1)%fixed), "all that exist")
     call expect(all(model%node(2)%fixed .eqv. [t, t, f, f, f, t, t]), "by name")
@@ -153,9 +160,12 @@ contains
   subroutine groups()
     type(model_t) :: model
 
-    call read_sound("FIX two|GROUP two NODES 2 one|GROUP one NODES 5:9:2|GROUP legs ELEMENTS 1 3:4|"// &
-                    "NODE 1:9 {i} 0 0|MATERIAL m E 1 G 1|SECTION s CONSTANTS A 1 IY 1 IZ 1 IT 1|"// &
+    call read_sound("FIX two|GROUP two NODES 2 one|GROUP one NODES 5:9:2|"// &
+        "GROUP legs ELEMENTS 1 3:4|"// &
+                    "NODE 1:9 {i} 0 0|MATERIAL m E 1 G 1|"// &
+                        "SECTION s CONSTANTS A 1 IY 1 IZ 1 IT 1|"// &
                     "BEAMW 1:8 {i} {i+1} SECTION s MATERIAL m|RLSE legs 6|XF 1 1 0 0", model)
+    call expect(size(model%node) == 9, "the sizes")
     if (size(model%node) /= 9) return
     call expect(all(model%node%fixed(1) .eqv. [.false., .true., .false., .false., .true., .false., &
                                                .true., .false., .true.]), "a group of a group")
@@ -167,9 +177,11 @@ contains
     type(model_t) :: model
 
     call read_sound(frame//"NODE 3 8 0 0|BEAMW 2 2 32 33 3 42 43|FIX 1|FUNCTION f RAMP 0 1|"// &
-                    "XF 2 1 2 3|XF 2 1 2 3 4 5 6|XF 2 1 2 3 4 5 6 7 FUNCTION f|XF 42 7 8 9|XF 43 5|"// &
+                    "XF 2 1 2 3|XF 2 1 2 3 4 5 6|XF 2 1 2 3 4 5 6 7 FUNCTION f|XF 42 7 8 9|"// &
+                        "XF 43 5|"// &
                     "XF 3 0 0 1 AT 0.5 -0.25|XF 2 0 0 1 AT 0.1 0.2 OF 1|MARKER tip 3 AT 9 8|"// &
                     "XF tip 1 0 0|GRAVITY 0 1 -9", model)
+    call expect(size(model%pattern) == 1, "the sizes")
     if (size(model%pattern) /= 1) return
     associate (p => model%pattern(1))
       call expect(p%loads == 8 .and. size(p%load) == 8, "eight loads")
@@ -206,9 +218,11 @@ contains
   subroutine functions()
     type(model_t) :: model
 
-    call read_sound(frame//"FIX 1|FUNCTION a RAMP 0.2 0.7|FUNCTION b SINE 3 2 0.5|FUNCTION c STEP 0.4|"// &
+    call read_sound(frame//"FIX 1|FUNCTION a RAMP 0.2 0.7|FUNCTION b SINE 3 2 0.5|"// &
+        "FUNCTION c STEP 0.4|"// &
                     "FUNCTION d TABLE 0 0 0.5 1 0.5 0.8 1 0.2|FUNCTION e EXPR {t^2*(3-2*t)}|"// &
                     "XF 2 1 0 0 FUNCTION e", model)
+    call expect(size(model%function) == 5, "the sizes")
     if (size(model%function) /= 5) return
     call expect(model%pattern(1)%load(1)%function == 5, "the load's function")
     call expect_close(function_value(named("a"), 0.45_wp), 0.5_wp, 1.0e-15_wp, "half up the ramp")
@@ -240,8 +254,10 @@ contains
   subroutine patterns()
     type(model_t) :: model
 
-    call read_sound(frame//"FIX 1|XF 2 1 0 0|STATIC STEPS 3 TO 0.5 NAME up|STATIC TO 2 MAXITER 7 TOL 1e-6|"// &
+    call read_sound(frame//"FIX 1|XF 2 1 0 0|STATIC STEPS 3 TO 0.5 NAME up|"// &
+        "STATIC TO 2 MAXITER 7 TOL 1e-6|"// &
                     "DELXF 2 0 1 0|XF 2 0 0 1|STATIC", model)
+    call expect(size(model%analysis) == 4, "the sizes")
     if (size(model%analysis) /= 4) return
     call expect(all(model%analysis%pattern == [1, 1, 2, 3]), "which pattern is ramped")
     call expect(all(model%analysis%steps == [3, 10, 10, 10]), "steps")
@@ -260,23 +276,28 @@ contains
                     "DYNE 1 1 2 3 4 5 6|END|HALT|ESTIFF 1 1 1 1 1 0 0 1|EM 1 1 1 1 1 0 0|"// &
                     "XF 4 1 0 0|DELXF 4 0 1 0|ITERSTEP 25 12 1e-5 - - 7|OUTLEVEL 0 1|END|END|"// &
                     "VISUALIZATION|BEAMVIS 3 4|LIGHT 1", model)
+    call expect(size(model%analysis) == 2, "the sizes")
     if (size(model%analysis) /= 2) return
     call expect(all(model%analysis%steps == [7, 12]), "steps of XF and DELXF")
     call expect(all(model%analysis%iterations == 25), "iterations")
     call expect_close(model%analysis%tolerance, [1.0e-5_wp, 1.0e-5_wp], 0.0_wp, "tolerance")
     call expect(all(model%analysis%pattern == [1, 2]), "patterns")
-    call expect(model%node(3)%id == 2 .and. all(model%node(3)%fixed .eqv. [.false., .false., .false., &
-                                               .true., .true., .true., .false.]), "FIX of a rotational node")
+    call expect(model%node(3)%id == 2 .and. all(model%node(3)%fixed .eqv. [.false., .false., &
+        .false., &
+                                               .true., .true., .true., .false.]), "FIX of a "// &
+                                                   "rotational node")
     call expect(.not. any(model%node(3)%exists .neqv. [.false., .true., .false.]), "kinds")
   end subroutine spacar
 
   subroutine any_order()
     type(model_t) :: model, usual
 
-    call read_sound("XF 2 0 0 1 AT 1 2|FIX 1|RLSE 1 6|BEAMW 1 1 2 0 1 0 SECTION bar MATERIAL steel|"// &
+    call read_sound("XF 2 0 0 1 AT 1 2|FIX 1|RLSE 1 6|"// &
+        "BEAMW 1 1 2 0 1 0 SECTION bar MATERIAL steel|"// &
                     "NODE 2 4 0 0|NODE 1 0 0 0|SECTION bar CONSTANTS IT 4 A 1 IZ 3 IY 2|"// &
                     "MATERIAL steel NU 0.25 E 200", model)
     call read_sound(frame//"RLSE 1 6|FIX 1|XF 2 0 0 1 AT 1 2", usual)
+    call expect(size(model%member) == 1 .and. size(usual%member) == 1, "the sizes")
     if (size(model%member) /= 1 .or. size(usual%member) /= 1) return
     call expect_close(model%member(1)%triad, usual%member(1)%triad, 0.0_wp, "triad")
     call expect(all(model%member(1)%status == usual%member(1)%status), "status")

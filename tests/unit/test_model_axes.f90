@@ -70,7 +70,8 @@ contains
     call orient_members(model, report)
     call expect_close(model%member(1)%triad(:, 2), [0.0_wp, cos(0.3_wp), sin(0.3_wp)], 1.0e-15_wp, &
                       "eY")
-    call expect_close(model%member(1)%triad(:, 3), [0.0_wp, -sin(0.3_wp), cos(0.3_wp)], 1.0e-15_wp, &
+    call expect_close(model%member(1)%triad(:, 3), [0.0_wp, -sin(0.3_wp), cos(0.3_wp)], &
+        1.0e-15_wp, &
                       "eZ")
   end subroutine turned
 
