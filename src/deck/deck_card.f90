@@ -16,6 +16,7 @@ module deck_card
   !> A card; its arrays are kept and reused from card to card.
   type :: card_t
     integer :: words = 0                     !< number of words, the keyword first
+    logical :: replaced = .false.            !< some words now stand behind the typed text
     integer :: file = 0                      !< file number of the report
     character(len=:), allocatable :: text    !< from the first word to the last, as typed
     integer, allocatable :: first(:)         !< where in `text` each word starts
@@ -35,6 +36,7 @@ module deck_card
     procedure :: is_quoted
     procedure :: place
     procedure :: raw
+    procedure :: replace
   end type card_t
 
 contains
@@ -48,6 +50,7 @@ contains
     integer :: n
 
     card%words = 0
+    card%replaced = .false.
     if (allocated(card%problem)) deallocate (card%problem)
     more = .false.
     do while (at <= len(text) .and. (more .or. card%words == 0))
@@ -205,6 +208,18 @@ contains
     place = place_t(self%file, self%line(i), self%column(i), self%last(i) - self%first(i) + 1)
   end function place
 
+  !> Let another text stand for the i-th word; its place stays.
+  pure subroutine replace(self, i, text)
+    class(card_t), intent(inout) :: self
+    integer, intent(in) :: i
+    character(len=*), intent(in) :: text
+
+    self%first(i) = len(self%text) + 1
+    self%text = self%text//text
+    self%last(i) = len(self%text)
+    self%replaced = .true.
+  end subroutine replace
+
   !> The words from the i-th to the last, separated by single blanks where a line ends.
   pure function raw(self, i) result(phrase)
     class(card_t), intent(in) :: self
@@ -217,7 +232,7 @@ contains
     if (i >= self%words) return
     phrase = self%text(self%first(i):self%last(i))
     do j = i + 1, self%words
-      if (self%line(j) == self%line(j - 1)) then
+      if (self%line(j) == self%line(j - 1) .and. .not. self%replaced) then
         phrase = phrase//self%text(self%last(j - 1) + 1:self%last(j))
       else
         phrase = phrase//" "//self%text(self%first(j):self%last(j))

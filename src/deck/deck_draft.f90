@@ -23,6 +23,7 @@ module deck_draft
     integer :: name = 0                     !< number of the group or marker
     integer :: id = 0                       !< of parts: their element
     integer :: first = 0, last = 0, step = 1
+    logical :: is_range = .false.           !< given as a:b
     type(place_t) :: place
   end type selection_t
 

@@ -8,7 +8,6 @@ module deck_element_cards
   use deck_draft, only: draft_t, beam_t, record_t, record_flexible, record_release, &
                         record_stiffness, record_inertia
   use deck_growth, only: grow
-  use deck_values, only: read_word
   use deck_model_cards, only: node_number, add_selection
   implicit none
   private
@@ -67,11 +66,11 @@ contains
 
     associate (option => card%option, choice => card%whole)
       if (option(1) > 0) then
-        call read_word(card, option(1) + 1, draft, name)
+        name = card%word(option(1) + 1)
         call draft%sections%refer(name, card%place(option(1) + 1), beam%section)
       end if
       if (option(2) > 0) then
-        call read_word(card, option(2) + 1, draft, name)
+        name = card%word(option(2) + 1)
         call draft%materials%refer(name, card%place(option(2) + 1), beam%material)
       end if
       if (option(3) > 0) beam%second = second(choice(option(3) + 1) - 1)

@@ -7,7 +7,6 @@ module deck_load_cards
                         record_gravity
   use deck_growth, only: grow
   use deck_settings, only: is_identifier
-  use deck_values, only: read_word
   use deck_model_cards, only: define_name
   use deck_element_cards, only: add_record, add_item
   implicit none
@@ -116,7 +115,7 @@ contains
     record%values = card%positional - 1
     record%value(:record%values) = card%number(3:2 + record%values)
     if (card%option(1) > 0) then
-      call read_word(card, card%option(1) + 1, draft, name)
+      name = card%word(card%option(1) + 1)
       call draft%functions%refer(name, card%place(card%option(1) + 1), record%function)
     end if
     call read_point(card, 2, record)
@@ -178,7 +177,7 @@ contains
         call check_count(card, option(5) + 1, most_steps, draft)
       end if
       if (option(6) > 0) then
-        call read_word(card, option(6) + 1, draft, name)
+        name = card%word(option(6) + 1)
         analysis%name = name
         call check_name(card, option(6) + 1, k, draft)
       end if

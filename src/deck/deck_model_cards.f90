@@ -10,7 +10,7 @@ module deck_model_cards
   use deck_registry, only: registry_t
   use deck_settings, only: is_identifier, reserved_names
   use deck_number, only: parse_number, number_ok
-  use deck_values, only: read_number, read_word, add_list
+  use deck_values, only: read_number, add_list
   implicit none
   private
 
@@ -56,7 +56,7 @@ contains
     type(card_t), intent(in) :: card
     type(draft_t), intent(inout) :: draft
 
-    call read_word(card, 2, draft, draft%include_path)
+    draft%include_path = card%word(2)
     draft%include_place = card%place(2)
   end subroutine read_include
 

@@ -11,7 +11,7 @@ module deck_reader
   use deck_handler, only: keyword_t
   use deck_keywords, only: keywords
   use deck_form, only: find_row, match_card
-  use deck_values, only: evaluate_card, read_range
+  use deck_values, only: evaluate_card, read_range, is_braced
   use deck_broken, only: mark_broken, mark_all_broken
   use deck_resolve, only: resolve_draft
   use deck_source, only: load_text, beside
@@ -175,6 +175,7 @@ contains
       call mark_broken(card, draft, "")
       return
     end if
+    call put_set_words(card, draft)
     call find_row(card, table%usage, draft%report, row, near)
     ok = row > 0
     if (ok) call match_card(card, table%usage(row), draft%report, ok)
@@ -183,6 +184,20 @@ contains
     if (.not. ok .and. near == 0) call mark_broken(card, draft, "")
     if (.not. ok .and. near > 0) call mark_broken(card, draft, trim(table%keyword(near)%name))
   end subroutine read_card
+
+  !> `{name}` of a SET whose value is a word stands for that word, wherever a word may stand.
+  subroutine put_set_words(card, draft)
+    type(card_t), intent(inout) :: card
+    type(draft_t), intent(in) :: draft
+    integer :: w, i
+
+    do w = 2, card%words
+      if (.not. is_braced(card%text(card%first(w):card%last(w)))) cycle
+      i = draft%settings%table%find(trim(adjustl(card%text(card%first(w) + 1:card%last(w) - 1))))
+      if (i == 0) cycle
+      if (.not. draft%settings%numeric(i)) call card%replace(w, draft%settings%word(i)%s)
+    end do
+  end subroutine put_set_words
 
   !> Model cards end with the first analysis.
   subroutine check_stage(card, draft, keyword, ok)
@@ -212,7 +227,7 @@ contains
     end if
     if (.not. ok) return
     do i = range%first, range%last, range%step
-      draft%scope = scope_t(has_i=range%first /= range%last, i=i)
+      draft%scope = scope_t(has_i=range%is_range, i=i)
       call evaluate_card(card, draft, ok)
       draft%scope = scope_t()
       if (.not. ok) return

@@ -16,7 +16,7 @@ module deck_values
   implicit none
   private
 
-  public :: evaluate_card, read_number, read_range, read_id, read_word, formula_of, add_list
+  public :: evaluate_card, read_number, read_range, read_id, formula_of, add_list, is_braced
 
   integer, parameter :: largest_id = 999999999
 
@@ -230,20 +230,6 @@ contains
     shifted = place_t(place%file, place%line, place%column + by, max(1, width))
   end function shifted
 
-  !> A word, or `{name}` of a SET word.
-  subroutine read_word(card, w, draft, word)
-    type(card_t), intent(in) :: card
-    integer, intent(in) :: w
-    type(draft_t), intent(in) :: draft
-    character(len=:), allocatable, intent(out) :: word
-    integer :: i
-
-    word = card%word(w)
-    if (.not. is_braced(word)) return
-    i = draft%settings%table%find(trim(adjustl(word(2:len(word) - 1))))
-    if (i > 0) word = draft%settings%word(i)%s
-  end subroutine read_word
-
   !> `5`, `a:b` or `a:b:s`, of ids or of the parts of one element.
   subroutine read_range(word, place, draft, range, ok)
     character(len=*), intent(in) :: word
@@ -268,6 +254,7 @@ contains
     end do
     if (.not. ok) return
     if (from <= len(word) + 1) n = 4
+    range%is_range = n > 1
     if (n == 1) id(2) = id(1)
     if (n == 1) part(2) = part(1)
     if (n == 4 .or. (part(1) > 0 .neqv. part(2) > 0) .or. (part(1) > 0 .and. id(1) /= id(2))) then
@@ -313,7 +300,7 @@ contains
     logical, intent(inout) :: ok
     character(len=:), allocatable :: word
 
-    call read_word(card, w, draft, word)
+    word = card%word(w)
     if (upper(word) == "ALL") then
       selection%kind = select_all
     else if (is_identifier(word)) then

@@ -7,6 +7,10 @@ program run_tests
   use test_section_solids, only: run_section_solids_tests
   use test_section_topology, only: run_section_topology_tests
   use test_section_check, only: run_section_check_tests
+  use test_deck_form, only: run_deck_form_tests
+  use test_deck_model, only: run_deck_model_tests
+  use test_deck_wrong, only: run_deck_wrong_tests
+  use test_model_axes, only: run_model_axes_tests
   use test_element_beamw, only: run_element_beamw_tests
   use test_beamw_inertia, only: run_beamw_inertia_tests
   use test_column_vibration, only: run_column_vibration_tests
@@ -20,6 +24,10 @@ program run_tests
   call run_section_solids_tests()
   call run_section_topology_tests()
   call run_section_check_tests()
+  call run_deck_form_tests()
+  call run_deck_model_tests()
+  call run_deck_wrong_tests()
+  call run_model_axes_tests()
   call run_element_beamw_tests()
   call run_beamw_inertia_tests()
   call run_column_vibration_tests()

@@ -196,7 +196,8 @@ contains
     do i = 1, reference_cases()
       call get_case(i, c)
       call c%element%law(s)
-      call c%element%evaluate(c%state, stress*0, strain, b, g, valid)
+      stress = 0
+      call c%element%evaluate(c%state, stress, strain, b, g, valid)
       stress = matmul(s, strain)
       call c%element%evaluate(c%state, stress, strain, b, g, valid)
       tangent = g + matmul(transpose(b), matmul(s, b))
