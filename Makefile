@@ -7,7 +7,8 @@ PREFIX  = /usr/local
 
 # MODE is what differs between the release build and those of check-build and coverage.
 MODE    = -O3
-WARN    = -Wall -Wextra -Wimplicit-interface -Wconversion -fimplicit-none
+# -Wmaybe-uninitialized cries wolf over descriptors of allocatables at -O3.
+WARN    = -Wall -Wextra -Wimplicit-interface -Wconversion -fimplicit-none -Wno-maybe-uninitialized
 WERROR ?= $(if $(filter true,$(CI)),1,0)
 CHECK   = -O1 -fcheck=all,no-array-temps -fsanitize=address,undefined \
           -fno-sanitize-recover=undefined -fno-omit-frame-pointer -ffpe-trap=invalid,zero,overflow

@@ -119,7 +119,8 @@ contains
     type(error_t), allocatable, intent(out) :: error
     logical, allocatable :: all_of_them(:)
 
-    all_of_them = [self%completed, complete]
+    allocate (all_of_them(size(self%completed) + 1))
+    all_of_them(:) = [self%completed, complete]
     call move_alloc(all_of_them, self%completed)
     if (self%steps < 0) allocate (error)
   end subroutine memory_finish
