@@ -22,7 +22,7 @@ module analysis_arc
 
   public :: run_arc
 
-  integer, parameter :: aim = 4                      !< iterations a step should take
+  real(wp), parameter :: aim = 4.5_wp                !< iterations a step should take
   real(wp), parameter :: most_growth = 2.0_wp        !< of the arc length from step to step
   real(wp), parameter :: shortest = 1.0e-6_wp        !< of the first arc, before giving up
   real(wp), parameter :: longest = 0.15_wp           !< arc of one step: mean motion, model length or rad
@@ -162,7 +162,7 @@ contains
 
     arc = sqrt(arc_product(system, path%control%total, path%control%total))
     if (path%control%kind == control_load) path%first_arc = arc
-    arc = arc*min(most_growth, max(1/most_growth, sqrt(real(aim, wp)/iterations)))
+    arc = arc*min(most_growth, max(1/most_growth, sqrt(aim/iterations)))
     path%control%kind = control_arc
     path%control%arc = min(arc, longest)
     path%control%heading = path%control%total

@@ -43,7 +43,7 @@ module recorder
 
   type, abstract, public :: recorder_t
   contains
-    procedure :: critical
+    procedure :: critical_point
     procedure(begin_interface), deferred :: begin
     procedure(iteration_interface), deferred :: iteration
     procedure(remark_interface), deferred :: remark
@@ -109,7 +109,7 @@ module recorder
 contains
 
   !> A critical point was passed: a line of it, unless a recorder keeps more.
-  subroutine critical(self, point, error)
+  subroutine critical_point(self, point, error)
     class(recorder_t), intent(inout) :: self
     type(critical_t), intent(in) :: point
     type(error_t), allocatable, intent(out) :: error
@@ -119,6 +119,6 @@ contains
                      to_text(point%factor, 8)//", unstable modes "//to_text(point%before)// &
                      " -> "//to_text(point%behind))
     if (point%step < 0) call fail(error, exit_solve, "a critical point without a step")
-  end subroutine critical
+  end subroutine critical_point
 
 end module recorder

@@ -82,7 +82,7 @@ contains
     point%step = step
     point%before = watch%unstable
     point%behind = unstable
-    call recorder%critical(point, error)
+    call recorder%critical_point(point, error)
     if (allocated(error)) return
     call go_back(reached, iterate, level)
     if (watch%stability == stability_required .and. unstable > 0) then

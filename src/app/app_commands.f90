@@ -106,9 +106,10 @@ contains
     options%overwrite = command%overwrite
     options%progress = command%progress
     options%level = command%level
-    if (options%output == options%deck .or. options%output//".part" == options%deck) &
+    if (options%output == options%deck .or. options%output//".part" == options%deck) then
       call fail(error, exit_usage, "the results would replace the deck "//quoted(options%deck)// &
                 newline//"    hint: spar run "//options%deck//" -o OTHER.h5")
+    end if
   end subroutine get_options
 
   !> A path without folders and extension.

@@ -113,8 +113,9 @@ contains
       end associate
       i = i + 1
     end do
-    if (command%argument == "" .and. command%action /= "keywords") &
+    if (command%argument == "" .and. command%action /= "keywords") then
       call refuse("no deck given", "", error, command%action)
+    end if
   end subroutine parse_arguments
 
   !> One option; `i` moves on to its last word.
@@ -215,8 +216,9 @@ contains
     allocate (more(n + 1))
     do i = 1, n
       more(i) = command%setting(i)
-      if (more(i)%name == value(:at - 1)) &
+      if (more(i)%name == value(:at - 1)) then
         call refuse("'-D "//value(:at - 1)//"' is given twice", "", error, command%action)
+      end if
     end do
     more(n + 1)%name = value(:at - 1)
     more(n + 1)%value = value(at + 1:)

@@ -35,7 +35,7 @@ module deck_draft
 
   integer, parameter, public :: record_fix = 1, record_flexible = 2, record_release = 3, &
     record_stiffness = 4, record_inertia = 5, record_load = 6, record_marker = 7, &
-    record_gravity = 8
+    record_gravity = 8, record_control = 9, record_stop = 10
 
   !> A card about nodes or elements of a list.
   type :: record_t

@@ -178,8 +178,14 @@ contains
 
     table = [ &
       keyword_t("STATIC", "analysis", "", "STEPS n:count=10 | TO factor:1=1 | "// &
-        "CONTROL kind:LOAD/=LOAD | TOL tolerance:1 | MAXITER n:count | NAME name:word", &
-        "ramps the loads given since the last analysis by the load factor to TO, in equal steps", &
+        "CONTROL | LOAD | ARC | DISPLACEMENT node:nodes component:component value:1 | "// &
+        "INITIAL factor:1 | MAXSTEPS n:count=200 | "// &
+        "STOP node:nodes component:component value:1 | TOL tolerance:1=1e-7 | "// &
+        "MAXITER n:count=30 | STABILITY kind:OFF/ON/REQUIRED=OFF | NAME name:word", &
+        "ramps the loads given since the last analysis. CONTROL LOAD (default): equal steps of "// &
+        "the load factor to TO; CONTROL DISPLACEMENT: equal steps of a displacement of a node or "// &
+        "marker to a value; CONTROL ARC: along the path, beyond limit points, to TO or STOP. "// &
+        "STABILITY counts unstable modes and locates critical points", &
         "STATIC STEPS 12 NAME lift", "mode 10", read_static), &
       keyword_t("ITERSTEP", "analysis", &
         "iterations:count n:count? tolerance:1? -:text? -:text? m:count?", "", &

@@ -4,11 +4,13 @@ module deck_load_cards
   use diagnostics, only: place_t
   use deck_card, only: card_t
   use deck_draft, only: draft_t, record_t, iteration_t, record_fix, record_load, record_marker, &
-                        record_gravity
+                        record_gravity, record_stop
   use deck_growth, only: grow
   use deck_settings, only: is_identifier
   use deck_model_cards, only: define_name
   use deck_element_cards, only: add_record, add_item
+  use deck_targets, only: read_control, read_target
+  use model_data, only: analysis_t, control_displacement, control_arc
   implicit none
   private
 
@@ -148,11 +150,11 @@ contains
     draft%record(draft%records) = record
   end subroutine read_gravity
 
-  !> STATIC [STEPS n] [TO factor] [CONTROL LOAD] [TOL t] [MAXITER m] [NAME word]
+  !> STATIC with its options, in the order of the keyword table.
   subroutine read_static(card, draft)
     type(card_t), intent(in) :: card
     type(draft_t), intent(inout) :: draft
-    character(len=:), allocatable :: name
+    type(analysis_t) :: analysis
     integer :: k
 
     k = draft%analyses + 1
@@ -160,7 +162,7 @@ contains
     draft%block = draft%block + 1
     call grow(draft%model%analysis, k)
     call grow(draft%analysis_steps, k)
-    associate (analysis => draft%model%analysis(k), option => card%option)
+    associate (option => card%option)
       analysis%place = card%place(1)
       draft%analysis_steps(k) = 0
       if (option(1) > 0) then
@@ -168,36 +170,70 @@ contains
         call check_count(card, option(1) + 1, most_steps, draft)
       end if
       if (option(2) > 0) analysis%factor = card%number(option(2) + 1)
-      if (option(4) > 0) then
-        analysis%tolerance = card%number(option(4) + 1)
-        call check_tolerance(card, option(4) + 1, draft)
+      call read_control(card, 3, draft, analysis)
+      if (option(7) > 0) then
+        analysis%first_increment = card%number(option(7) + 1)
+        if (.not. analysis%first_increment > 0) call draft%report%add_error( &
+          card%place(option(7) + 1), "a positive increment of the load factor expected")
       end if
-      if (option(5) > 0) then
-        analysis%iterations = card%whole(option(5) + 1)
-        call check_count(card, option(5) + 1, most_steps, draft)
+      if (option(8) > 0) then
+        analysis%most_steps = card%whole(option(8) + 1)
+        call check_count(card, option(8) + 1, most_steps, draft)
       end if
-      if (option(6) > 0) then
-        name = card%word(option(6) + 1)
-        analysis%name = name
-        call check_name(card, option(6) + 1, k, draft)
+      analysis%stops = option(9) > 0
+      if (analysis%stops) call read_target(card, option(9), record_stop, draft)
+      if (option(10) > 0) then
+        analysis%tolerance = card%number(option(10) + 1)
+        call check_tolerance(card, option(10) + 1, draft)
       end if
+      if (option(11) > 0) then
+        analysis%iterations = card%whole(option(11) + 1)
+        call check_count(card, option(11) + 1, most_steps, draft)
+      end if
+      if (option(12) > 0) analysis%stability = card%whole(option(12) + 1) - 1
+      if (option(13) > 0) then
+        analysis%name = card%word(option(13) + 1)
+        call check_name(card, option(13) + 1, k, analysis%name, draft)
+      end if
+      call check_arc_options(card, analysis, draft)
     end associate
+    draft%model%analysis(k) = analysis
   end subroutine read_static
 
-  !> A result group's name must be a plain word, once.
-  subroutine check_name(card, w, k, draft)
+  !> Options that only a path by its arc length has.
+  subroutine check_arc_options(card, analysis, draft)
     type(card_t), intent(in) :: card
-    integer, intent(in) :: w, k
+    type(analysis_t), intent(in) :: analysis
     type(draft_t), intent(inout) :: draft
     integer :: i
 
-    if (.not. is_identifier(trim(draft%model%analysis(k)%name))) then
+    do i = 7, 9
+      if (card%option(i) == 0 .or. analysis%control == control_arc) cycle
+      call draft%report%add_error(card%place(card%option(i)), card%word(card%option(i))// &
+                                  " belongs to CONTROL ARC")
+    end do
+    if (card%option(1) > 0 .and. analysis%control == control_arc) call draft%report%add_error( &
+      card%place(card%option(1)), "CONTROL ARC chooses its steps", "MAXSTEPS n limits them")
+    if (card%option(2) > 0 .and. analysis%control == control_displacement) &
+      call draft%report%add_error(card%place(card%option(2)), &
+                                  "the value of CONTROL DISPLACEMENT replaces TO")
+  end subroutine check_arc_options
+
+  !> A result group's name must be a plain word, once.
+  subroutine check_name(card, w, k, name, draft)
+    type(card_t), intent(in) :: card
+    integer, intent(in) :: w, k
+    character(len=*), intent(in) :: name
+    type(draft_t), intent(inout) :: draft
+    integer :: i
+
+    if (.not. is_identifier(trim(name))) then
       call draft%report%add_error(card%place(w), quoted(card%word(w))//" cannot be a name", &
                                   "names have letters, digits and _, no digit first")
       return
     end if
     do i = 1, k - 1
-      if (draft%model%analysis(i)%name /= draft%model%analysis(k)%name) cycle
+      if (draft%model%analysis(i)%name /= name) cycle
       call draft%report%add_error(card%place(w), "an analysis has this name already", "at "// &
                                   draft%report%location(draft%model%analysis(i)%place))
       return

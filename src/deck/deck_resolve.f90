@@ -10,6 +10,7 @@ module deck_resolve
   use deck_supports, only: set_supports
   use deck_points, only: neighbours_t, find_neighbours, set_markers
   use deck_loads, only: set_analyses, set_loads
+  use deck_targets, only: set_targets
   implicit none
   private
 
@@ -37,6 +38,7 @@ contains
     call find_neighbours(draft, neighbours)
     call set_analyses(draft, pattern)
     call set_markers(draft, neighbours)
+    call set_targets(draft)
     call set_loads(draft, neighbours, pattern)
     draft%model%point = draft%model%point(:draft%points)
     if (draft%report%errors() == 0) call check_use(draft%model, draft%report)

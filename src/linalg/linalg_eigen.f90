@@ -134,6 +134,7 @@ contains
   end function start_vector
 
   !> A lower bound of the largest |theta|, usually near to it, by power iteration; 0: Q is zero.
+  !> If Q is semidefinite, A need not be definite.
   subroutine estimate_theta(solver, pencil, theta, error)
     type(solver_t), intent(inout) :: solver
     type(pencil_t), intent(in) :: pencil
@@ -149,7 +150,11 @@ contains
       y = x(:pencil%coordinates)
       call apply(solver, pencil, y, x, error)
       if (allocated(error)) return
-      call multiply(pencil, pencil%a, x(:pencil%coordinates), y)
+      if (pencil%semidefinite) then
+        call multiply(pencil, pencil%q, x(:pencil%coordinates), y)
+      else
+        call multiply(pencil, pencil%a, x(:pencil%coordinates), y)
+      end if
       size_x = sqrt(max(0.0_wp, dot_product(x(:pencil%coordinates), y)))
       if (i > 0) theta = size_x
       if (.not. size_x > 0) return

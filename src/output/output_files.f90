@@ -1,7 +1,8 @@
 !> What HDF5 and Fortran do not offer: renaming and removing files, asking for a terminal.
 module output_files
-  use, intrinsic :: iso_c_binding, only: c_int, c_char, c_null_char, c_ptr, c_associated
+  use, intrinsic :: iso_c_binding, only: c_int, c_null_char, c_ptr, c_associated
   use errors, only: error_t, fail, exit_io
+  use output_interfaces, only: c_rename, c_remove, c_fopen, c_fclose, c_fileno, c_flock, c_isatty
   implicit none
   private
 
@@ -9,50 +10,6 @@ module output_files
             error_is_terminal
 
   integer(c_int), parameter :: lock_at_once = 6, unlock = 8   !< LOCK_EX + LOCK_NB, LOCK_UN
-
-  interface
-    integer(c_int) function c_rename(from, to) bind(c, name="rename")
-      import :: c_int, c_char
-      implicit none
-      character(kind=c_char), intent(in) :: from(*), to(*)
-    end function c_rename
-
-    integer(c_int) function c_remove(path) bind(c, name="remove")
-      import :: c_int, c_char
-      implicit none
-      character(kind=c_char), intent(in) :: path(*)
-    end function c_remove
-
-    type(c_ptr) function c_fopen(path, mode) bind(c, name="fopen")
-      import :: c_ptr, c_char
-      implicit none
-      character(kind=c_char), intent(in) :: path(*), mode(*)
-    end function c_fopen
-
-    integer(c_int) function c_fclose(file) bind(c, name="fclose")
-      import :: c_ptr, c_int
-      implicit none
-      type(c_ptr), value :: file
-    end function c_fclose
-
-    integer(c_int) function c_fileno(file) bind(c, name="fileno")
-      import :: c_ptr, c_int
-      implicit none
-      type(c_ptr), value :: file
-    end function c_fileno
-
-    integer(c_int) function c_flock(descriptor, operation) bind(c, name="flock")
-      import :: c_int
-      implicit none
-      integer(c_int), value :: descriptor, operation
-    end function c_flock
-
-    integer(c_int) function c_isatty(descriptor) bind(c, name="isatty")
-      import :: c_int
-      implicit none
-      integer(c_int), value :: descriptor
-    end function c_isatty
-  end interface
 
 contains
 
@@ -78,7 +35,7 @@ contains
     open (newunit=unit, file=path, status="unknown", action="write", access="stream", &
           form="unformatted", iostat=status, iomsg=message)
     if (status == 0) then
-      close (unit, iostat=status)
+      close (unit)
     else
       call fail(error, exit_io, "cannot write '"//path//"': "//reason(trim(message)))
     end if
@@ -96,8 +53,9 @@ contains
     if (.not. c_associated(file)) return
     used = c_flock(c_fileno(file), lock_at_once) /= 0
     status = c_flock(c_fileno(file), unlock)
-    if (used .and. status == 0) &
+    if (used .and. status == 0) then
       call fail(error, exit_io, "cannot write '"//path//"': another run is writing it")
+    end if
     status = c_fclose(file)
   end subroutine check_unused
 
@@ -115,8 +73,9 @@ contains
     character(len=*), intent(in) :: from, to
     type(error_t), allocatable, intent(out) :: error
 
-    if (c_rename(from//c_null_char, to//c_null_char) /= 0) &
+    if (c_rename(from//c_null_char, to//c_null_char) /= 0) then
       call fail(error, exit_io, "cannot rename '"//from//"' to '"//to//"'")
+    end if
   end subroutine rename_file
 
   !> Remove a file if it is there.

@@ -1,7 +1,7 @@
 !> A file of the HDF5 library: groups, attributes, datasets.
 !>
-!> A failure stays in the file and silences what follows; `flush` and `close` hand it over, so
-!> that a run of calls is checked once. Files of equal contents are equal byte by byte.
+!> A failure stays in the file and silences what follows; `flush` and `close` hand it over.
+!> Files of equal contents are equal byte by byte.
 module output_hdf5
   use, intrinsic :: iso_c_binding, only: c_ptr, c_null_ptr, c_loc, c_char, c_null_char
   use hdf5, only: hid_t, hsize_t, size_t, h5dont_atexit_f, h5open_f, h5close_f, h5eset_auto_f, &
@@ -69,11 +69,9 @@ contains
     call h5eset_auto_f(0, status)
     call new_list(self, h5p_file_create_f, creation)
     call h5pcreate_f(h5p_file_access_f, access, status)
-    call self%check(status, "h5pcreate_f")
     call h5pset_libver_bounds_f(access, h5f_libver_v18_f, h5f_libver_v18_f, status)
     call self%check(status, "h5pset_libver_bounds_f")
     call h5pset_fclose_degree_f(access, h5f_close_strong_f, status)
-    call self%check(status, "h5pset_fclose_degree_f")
     call h5fcreate_f(path, h5f_acc_trunc_f, self%id, status, creation, access)
     call self%check(status, "h5fcreate_f")
     self%open = status >= 0
@@ -348,7 +346,6 @@ contains
     call self%check(status, "h5dwrite_f")
     call self%describe(dataset, about)
     call h5dclose_f(dataset, status)
-    call self%check(status, "h5dclose_f")
   end subroutine write_dataset
 
   !> A dataspace; without extents it holds one value.

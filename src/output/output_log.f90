@@ -74,8 +74,9 @@ contains
     allocate (self%node(size(model%node)), self%summary(size(model%analysis)))
     do i = 1, size(model%node)
       self%node(i) = to_text(model%node(i)%id)
-      if (model%node(i)%part > 0) &
+      if (model%node(i)%part > 0) then
         self%node(i) = trim(self%node(i))//"."//to_text(model%node(i)%part)
+      end if
     end do
     call say(self, program_name//" "//version//", "//deck)
     if (model%title /= "") call say(self, model%title)
@@ -93,6 +94,7 @@ contains
     if (self%level == log_quiet) return
     call hide_progress(self)
     write (output_unit, "(a)", iostat=status) line
+    if (status /= 0) self%level = log_quiet
   end subroutine say
 
   subroutine begin_analysis(self, number, analysis)
@@ -199,6 +201,7 @@ contains
     if (self%level == log_quiet) return
     call hide_progress(self)
     write (error_unit, "(a)", iostat=status) text
+    if (status /= 0) self%level = log_quiet
   end subroutine log_remark
 
   subroutine log_step(self, step, results)
@@ -314,7 +317,7 @@ contains
            to_text(iteration%iteration)
     if (self%counted) line = line//", "//to_text((100*(iteration%step - 1))/self%steps)//" %"
     write (error_unit, "(a)", advance="no", iostat=status) erase//line
-    flush (error_unit, iostat=status)
+    if (status == 0) flush (error_unit)
   end subroutine show_progress
 
   subroutine hide_progress(self)
@@ -323,7 +326,7 @@ contains
 
     if (.not. self%shown) return
     write (error_unit, "(a)", advance="no", iostat=status) erase
-    flush (error_unit, iostat=status)
+    if (status == 0) flush (error_unit)
     self%shown = .false.
   end subroutine hide_progress
 

@@ -114,8 +114,9 @@ contains
     steps = merge(analysis%most_steps, analysis%steps, analysis%control == control_arc)
     write (digits, "(i0.2)") number
     self%group = "analysis/"//trim(digits)//"_"//trim(kind_names(analysis%kind))
-    if (analysis%name /= "") &
+    if (analysis%name /= "") then
       self%group = "analysis/"//trim(digits)//"_"//link_name(trim(analysis%name))
+    end if
     call self%file%group(self%group)
     call self%file%set_text(self%group, "kind", trim(kind_names(analysis%kind)))
     call self%file%set_number(self%group, "complete", 0)

@@ -116,8 +116,9 @@ contains
     type(hdf5_file_t), intent(inout) :: file
     real(wp), intent(in), contiguous, target :: values(:)
 
-    if (size(values) > 0) &
+    if (size(values) > 0) then
       call append_rows(self, file, h5t_native_double, size(values), c_loc(values))
+    end if
   end subroutine append_reals
 
   !> Rows of a table.
@@ -126,8 +127,9 @@ contains
     type(hdf5_file_t), intent(inout) :: file
     real(wp), intent(in), contiguous, target :: values(:, :)   !< (columns, rows)
 
-    if (size(values) > 0) &
+    if (size(values) > 0) then
       call append_rows(self, file, h5t_native_double, size(values, 2), c_loc(values))
+    end if
   end subroutine append_real_table
 
   subroutine append_rows(self, file, given, rows, values)

@@ -10,7 +10,7 @@ module system_results
   implicit none
   private
 
-  public :: results_t, get_results
+  public :: results_t, get_results, shear_centre_shift
 
   integer, parameter, public :: result_modes = 8  !< strains kept of a member
 

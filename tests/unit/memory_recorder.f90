@@ -5,7 +5,7 @@ module memory_recorder
   use model_data, only: model_t, analysis_t, setting_t
   use diagnostics, only: report_t
   use deck_reader, only: read_deck
-  use recorder, only: recorder_t, iteration_t, step_t
+  use recorder, only: recorder_t, iteration_t, step_t, critical_t
   use system_results, only: results_t
   use analysis_run, only: run_analyses
   use text, only: string_t
@@ -22,10 +22,12 @@ module memory_recorder
     type(results_t), allocatable :: results(:)
     type(string_t), allocatable :: remarks(:)
     logical, allocatable :: completed(:)      !< by analysis
+    type(critical_t), allocatable :: critical(:)
   contains
     procedure :: begin => memory_begin
     procedure :: iteration => memory_iteration
     procedure :: remark => memory_remark
+    procedure :: critical_point => memory_critical
     procedure :: step => memory_step
     procedure :: finish => memory_finish
     procedure :: interrupted => memory_interrupted
@@ -56,8 +58,9 @@ contains
     end if
     memory%steps = 0
     if (allocated(memory%record)) deallocate (memory%record, memory%results)
-    if (allocated(memory%remarks)) deallocate (memory%remarks, memory%completed)
+    if (allocated(memory%remarks)) deallocate (memory%remarks, memory%completed, memory%critical)
     allocate (memory%record(400), memory%results(400), memory%remarks(0), memory%completed(0))
+    allocate (memory%critical(0))
     call read_deck("tests/cases/static/"//name//".deck", override, model, report, error)
     if (allocated(error)) return
     if (report%errors() > 0) then
@@ -97,6 +100,21 @@ contains
     more(n + 1)%s = text
     call move_alloc(more, self%remarks)
   end subroutine memory_remark
+
+  subroutine memory_critical(self, point, error)
+    class(memory_t), intent(inout) :: self
+    type(critical_t), intent(in) :: point
+    type(error_t), allocatable, intent(out) :: error
+    type(critical_t), allocatable :: more(:)
+    integer :: n
+
+    n = size(self%critical)
+    allocate (more(n + 1))
+    more(:n) = self%critical
+    more(n + 1) = point
+    call move_alloc(more, self%critical)
+    if (point%step < 0) allocate (error)
+  end subroutine memory_critical
 
   subroutine memory_step(self, step, results, error)
     class(memory_t), intent(inout) :: self

@@ -76,7 +76,7 @@ contains
     inquire (unit=unit, size=length)
     deallocate (text)
     allocate (character(len=length) :: text)
-    if (length > 0) read (unit, iostat=status) text
+    if (length > 0) read (unit) text
     close (unit)
   end subroutine read_text
 

@@ -15,6 +15,7 @@ program run_tests
   use test_beamw_inertia, only: run_beamw_inertia_tests
   use test_column_vibration, only: run_column_vibration_tests
   use test_static, only: run_static_tests
+  use test_path, only: run_path_tests
   implicit none
 
   call run_linalg_tests()
@@ -32,5 +33,6 @@ program run_tests
   call run_beamw_inertia_tests()
   call run_column_vibration_tests()
   call run_static_tests()
+  call run_path_tests()
   call finish()
 end program run_tests

@@ -78,8 +78,9 @@ contains
     found = found + 1
     call get_powers(bare(cell(line, 3)), wanted)
     call expect(size(powers) == size(wanted), name//": number of dimensions")
-    if (size(powers) == size(wanted)) &
+    if (size(powers) == size(wanted)) then
       call expect(all(powers == reshape(wanted, [size(wanted)])), name//": dimension")
+    end if
     call get_text(path, name, "axes", axes)
     call expect(axes == cell(line, 4), name//": axes '"//axes//"'")
     call get_text(path, name, "description", description)

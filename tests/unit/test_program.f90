@@ -302,7 +302,7 @@ contains
     character(len=:), allocatable :: path
 
     path = fresh("cantilever.h5")
-    call run_shell('program=$(realpath "$SPAR_PROGRAM") && deck=$(realpath '//deck//') && cd '// &
+    call run_shell('program=$(realpath "$SPAR_PROGRAM") && deck=$(realpath '//deck//") && cd "// &
                    scratch("")//' && "$program" run "$deck" --quiet', outcome)
     call expect(outcome%status == 0, "status 0")
     call expect(file_there(path), "cantilever.h5 here")

@@ -1,0 +1,215 @@
+!> EIGEN: frequencies and modes of small vibrations about the present state,
+!> (K + G) x = omega**2 M x (theory 8).
+!>
+!> A state that nothing holds, or that is unstable, has frequencies that are zero or imaginary;
+!> they are found by a shift below all of them.
+module analysis_eigen
+  use kinds, only: wp
+  use errors, only: error_t, fail, exit_deck, exit_solve
+  use text, only: to_text, plural
+  use model_data, only: model_t, analysis_t
+  use linalg_solver, only: solver_t
+  use linalg_eigen, only: pencil_t, pairs_t, estimate_theta
+  use linalg_spectrum, only: find_spectrum, count_between
+  use system_data, only: system_t
+  use system_assembly, only: iterate_t, assemble
+  use system_blocks, only: half_t, new_half, fold
+  use system_geometric, only: is_conservative
+  use system_inertia, only: masses_t, new_masses, assemble_mass, mass_product, mass_centre, &
+                            rigid_motion
+  use system_names, only: coordinate_name
+  use mode_results, only: modes_t, new_modes, add_mode, by_coordinate, unit_factor, &
+                          symmetric_part
+  use recorder, only: recorder_t
+  implicit none
+  private
+
+  public :: run_eigen
+
+  real(wp), parameter :: pi = acos(-1.0_wp)
+
+  !> An eigenvalue this small against the lowest elastic one is that of a free motion.
+  real(wp), parameter :: zero_eigenvalue = 1.0e-7_wp
+
+  !> Doublings of the shift before a state is given up.
+  integer, parameter :: most_shifts = 60
+
+contains
+
+  !> Frequencies about the state of `iterate` under the patterns' `level`.
+  subroutine run_eigen(model, system, solver, analysis, level, iterate, recorder, error)
+    type(model_t), intent(in) :: model
+    type(system_t), intent(in) :: system
+    type(solver_t), intent(inout) :: solver
+    type(analysis_t), intent(in) :: analysis
+    real(wp), intent(in) :: level(:)
+    type(iterate_t), intent(inout) :: iterate
+    class(recorder_t), intent(inout) :: recorder
+    type(error_t), allocatable, intent(out) :: error
+    type(solver_t) :: own
+    type(half_t) :: half
+    type(pencil_t) :: pencil
+    type(masses_t) :: masses
+    real(wp) :: mass(size(system%pattern%row))
+
+    call assemble(system, level, iterate)
+    call new_masses(model, masses)
+    if (size(masses%member) == 0) then
+      call fail(error, exit_deck, "EIGEN needs mass: give RHO to a MATERIAL or EM to an element")
+      return
+    end if
+    call assemble_mass(system, masses, iterate%state, mass)
+    call new_half(system%equations(), system%pattern, half)
+    pencil%coordinates = system%unknowns
+    pencil%equations = system%equations()
+    pencil%semidefinite = .true.
+    pencil%row = half%row
+    pencil%column = half%column
+    pencil%a = fold(half, iterate%values)
+    pencil%q = fold(half, mass)
+    if (system%pattern%symmetric) then
+      call find_frequencies(model, system, solver, pencil, masses, analysis, iterate, recorder, error)
+      return
+    end if
+    if (.not. is_conservative(system, iterate)) call recorder%remark("warning: "//symmetric_part)
+    call own%prepare(pencil%equations, half%row, half%column, .true., error)
+    if (.not. allocated(error)) &
+      call find_frequencies(model, system, own, pencil, masses, analysis, iterate, recorder, error)
+    call own%free()
+  end subroutine run_eigen
+
+  !> Solve, name the kinds of the eigenvalues, record.
+  subroutine find_frequencies(model, system, solver, pencil, masses, analysis, iterate, recorder, &
+                              error)
+    type(model_t), intent(in) :: model
+    type(system_t), intent(in) :: system
+    type(solver_t), intent(inout) :: solver
+    type(pencil_t), intent(inout) :: pencil
+    type(masses_t), intent(in) :: masses
+    type(analysis_t), intent(in) :: analysis
+    type(iterate_t), intent(in) :: iterate
+    class(recorder_t), intent(inout) :: recorder
+    type(error_t), allocatable, intent(out) :: error
+    type(pairs_t) :: pairs
+    type(modes_t) :: modes
+    real(wp) :: shift, zero
+    integer :: n
+
+    call find_shift(model, system, solver, pencil, shift, error)
+    if (allocated(error)) return
+    n = min(analysis%modes, pencil%coordinates - (pencil%equations - pencil%coordinates))
+    call new_modes(system, n, modes)
+    call find_spectrum(solver, pencil, [n, 0], &
+                       [2*pencil%coordinates - pencil%equations, 0], pairs, modes%complete, error)
+    if (allocated(error)) return
+    n = min(n, pairs%found(1))
+    modes%eigenvalue = 1/pairs%theta(:n) + shift
+    zero = zero_eigenvalue*abs(shift)
+    where (abs(modes%eigenvalue) <= zero) modes%eigenvalue = 0
+    modes%frequency = sqrt(max(0.0_wp, modes%eigenvalue))/(2*pi)
+    modes%imaginary = sqrt(max(0.0_wp, -modes%eigenvalue))/(2*pi)
+    call add_modes(model, system, masses, iterate, pairs, n, modes)
+    call recorder%modes(modes, error)
+    if (.not. allocated(error)) call say(modes, recorder)
+  end subroutine find_frequencies
+
+  !> Modes of mass 1, largest component positive.
+  subroutine add_modes(model, system, masses, iterate, pairs, n, modes)
+    type(model_t), intent(in) :: model
+    type(system_t), intent(in) :: system
+    type(masses_t), intent(in) :: masses
+    type(iterate_t), intent(in) :: iterate
+    type(pairs_t), intent(in) :: pairs
+    integer, intent(in) :: n
+    type(modes_t), intent(inout) :: modes
+    real(wp) :: rigid(system%coordinates, 6), moving(system%coordinates, 6)
+    real(wp) :: solution(system%equations())
+    integer :: i, j
+
+    modes%centre = mass_centre(masses, iterate%state)
+    rigid = rigid_motion(masses, iterate%state, modes%centre, system%coordinates)
+    call mass_product(masses, iterate%state, rigid, moving)
+    allocate (modes%participation(6, n), modes%effective_mass(6, n))
+    do j = 1, 6
+      modes%rigid_mass(j) = dot_product(rigid(:, j), moving(:, j))
+    end do
+    do i = 1, n
+      solution = pairs%vector(:, i)/sqrt(pairs%theta(i))
+      solution = sign(1.0_wp, unit_factor(system, solution))*solution
+      call add_mode(model, system, iterate, solution, modes)
+      modes%participation(:, i) = matmul(by_coordinate(system, solution), moving)
+      modes%effective_mass(:, i) = modes%participation(:, i)**2
+    end do
+  end subroutine add_modes
+
+  !> Factorize A = K - shift M with a shift below all eigenvalues: zero where the state is stable,
+  !> else about as far below zero as the lowest frequency of the held body is above.
+  subroutine find_shift(model, system, solver, pencil, shift, error)
+    type(model_t), intent(in) :: model
+    type(system_t), intent(in) :: system
+    type(solver_t), intent(inout) :: solver
+    type(pencil_t), intent(inout) :: pencil
+    real(wp), intent(out) :: shift
+    type(error_t), allocatable, intent(out) :: error
+    real(wp), allocatable :: stiffness(:)
+    real(wp) :: theta
+    integer, allocatable :: null(:)
+    integer :: attempt, below
+
+    shift = 0
+    call count_between(solver, pencil, 0.0_wp, below, error)
+    if (allocated(error)) return
+    allocate (null, source=solver%null_pivots())
+    if (below == 0 .and. size(null) == 0) return
+    call estimate_theta(solver, pencil, theta, error)
+    if (allocated(error)) return
+    if (.not. theta > 0) then
+      call fail(error, exit_solve, "EIGEN: nothing that has mass can move")
+      return
+    end if
+    shift = -1/theta
+    stiffness = pencil%a
+    do attempt = 1, most_shifts
+      pencil%a = stiffness - shift*pencil%q
+      call count_between(solver, pencil, 0.0_wp, below, error)
+      if (allocated(error)) return
+      null = solver%null_pivots()
+      if (below == 0 .and. size(null) == 0) return
+      shift = 2*shift
+    end do
+    call fail(error, exit_solve, "EIGEN: a motion without mass has no stiffness")
+    if (size(null) > 0) error%message = error%message//": "//unknown_name(model, system, null(1))
+  end subroutine find_shift
+
+  !> Name of an unknown.
+  pure function unknown_name(model, system, unknown) result(name)
+    type(model_t), intent(in) :: model
+    type(system_t), intent(in) :: system
+    integer, intent(in) :: unknown
+    character(len=:), allocatable :: name
+
+    name = "a constraint"
+    if (unknown <= system%unknowns) &
+      name = coordinate_name(model, findloc(system%unknown, unknown, 1))
+  end function unknown_name
+
+  !> What the user has to know of the spectrum.
+  subroutine say(modes, recorder)
+    type(modes_t), intent(in) :: modes
+    class(recorder_t), intent(inout) :: recorder
+    integer :: unstable, free
+
+    unstable = count(modes%eigenvalue < 0)
+    free = count(abs(modes%eigenvalue) <= 0)
+    if (unstable > 0) call recorder%remark("warning: the state is unstable: "// &
+      plural(unstable, "mode")//" with imaginary frequency")
+    if (free > 0) call recorder%remark(plural(free, "free motion")//" with frequency zero")
+    if (modes%complete) then
+      call recorder%remark("no frequency is missing up to mode "//to_text(modes%modes))
+    else
+      call recorder%remark("warning: frequencies may be missing below that of mode "// &
+                           to_text(modes%modes))
+    end if
+  end subroutine say
+
+end module analysis_eigen

@@ -1,0 +1,53 @@
+!> Procedures of the C library that handle files.
+module output_interfaces
+  use, intrinsic :: iso_c_binding, only: c_int, c_char, c_ptr
+  implicit none
+  private
+
+  public :: c_rename, c_remove, c_fopen, c_fclose, c_fileno, c_flock, c_isatty
+
+  interface
+    integer(c_int) function c_rename(from, to) bind(c, name="rename")
+      import :: c_int, c_char
+      implicit none
+      character(kind=c_char), intent(in) :: from(*), to(*)
+    end function c_rename
+
+    integer(c_int) function c_remove(path) bind(c, name="remove")
+      import :: c_int, c_char
+      implicit none
+      character(kind=c_char), intent(in) :: path(*)
+    end function c_remove
+
+    type(c_ptr) function c_fopen(path, mode) bind(c, name="fopen")
+      import :: c_ptr, c_char
+      implicit none
+      character(kind=c_char), intent(in) :: path(*), mode(*)
+    end function c_fopen
+
+    integer(c_int) function c_fclose(file) bind(c, name="fclose")
+      import :: c_ptr, c_int
+      implicit none
+      type(c_ptr), value :: file
+    end function c_fclose
+
+    integer(c_int) function c_fileno(file) bind(c, name="fileno")
+      import :: c_ptr, c_int
+      implicit none
+      type(c_ptr), value :: file
+    end function c_fileno
+
+    integer(c_int) function c_flock(descriptor, operation) bind(c, name="flock")
+      import :: c_int
+      implicit none
+      integer(c_int), value :: descriptor, operation
+    end function c_flock
+
+    integer(c_int) function c_isatty(descriptor) bind(c, name="isatty")
+      import :: c_int
+      implicit none
+      integer(c_int), value :: descriptor
+    end function c_isatty
+  end interface
+
+end module output_interfaces
