@@ -6,7 +6,7 @@ VENV    = build/venv
 PREFIX  = /usr/local
 
 # MODE is what differs between the release build and those of check-build and coverage.
-MODE    = -O3
+MODE    = -O3 -fno-backtrace
 # -Wmaybe-uninitialized cries wolf over descriptors of allocatables at -O3.
 WARN    = -Wall -Wextra -Wimplicit-interface -Wconversion -fimplicit-none -Wno-maybe-uninitialized
 WERROR ?= $(if $(filter true,$(CI)),1,0)

@@ -124,7 +124,7 @@ contains
       call go_back(safe, iterate, level)
       if (outcome%status == newton_interrupted) then
         call fail(error, exit_interrupt, "interrupted in step "//to_text(record%step)// &
-                  "; the converged steps are kept")
+                  "; steps that converged before are kept")
         return
       end if
       call shorten(model, system, analysis, path, level, outcome, recorder, record, error)

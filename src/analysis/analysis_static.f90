@@ -156,7 +156,7 @@ contains
 
     if (outcome%status == newton_interrupted) then
       call fail(error, exit_interrupt, "interrupted in step "//to_text(record%step)//" of "// &
-                to_text(analysis%steps)//"; the converged steps are kept")
+                to_text(analysis%steps)//"; steps that converged before are kept")
     else if (share == 1 .or. analysis%pattern == 0) then
       call fail(error, exit_solve, failure(model, system, analysis, reached, record, outcome))
     else

@@ -28,12 +28,12 @@ contains
     end do
   end function amplitudes
 
-  !> Add the forces of all loads to `external` (by coordinate) and their tangent to `values`.
-  pure subroutine add_loads(system, state, level, external, values)
+  !> Add the forces of all loads to `total` (by coordinate) and their tangent to `values`.
+  pure subroutine add_loads(system, state, level, total, values)
     type(system_t), intent(in) :: system
     type(state_t), intent(in) :: state
     real(wp), intent(in) :: level(:)
-    real(wp), intent(inout) :: external(:), values(:)
+    real(wp), intent(inout) :: total(:), values(:)
     real(wp) :: force(7), tangent(4, 4), factor(size(system%load))
     integer :: i, at(7)
 
@@ -42,7 +42,7 @@ contains
       associate (load => system%load(i))
         call dead_load(load, factor(i), state, force, tangent)
         at = coordinate_number(load%node([1, 1, 1, 2, 2, 2, 3]), [1, 2, 3, 4, 5, 6, 7])
-        external(at) = external(at) + force
+        total(at) = total(at) + force
         call scatter(system%pattern, size(system%element) + i, tangent, values)
       end associate
     end do

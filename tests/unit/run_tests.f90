@@ -16,6 +16,9 @@ program run_tests
   use test_column_vibration, only: run_column_vibration_tests
   use test_static, only: run_static_tests
   use test_path, only: run_path_tests
+  use test_output_hdf5, only: run_output_hdf5_tests
+  use test_output_results, only: run_output_results_tests
+  use test_program, only: run_program_tests
   implicit none
 
   call run_linalg_tests()
@@ -34,5 +37,8 @@ program run_tests
   call run_column_vibration_tests()
   call run_static_tests()
   call run_path_tests()
+  call run_output_hdf5_tests()
+  call run_output_results_tests()
+  call run_program_tests()
   call finish()
 end program run_tests
