@@ -6,7 +6,8 @@ module system_assembly
   use kinds, only: wp
   use nodal_state, only: state_t, new_state, coordinate_number, node_coordinates
   use element_base, only: element_t
-  use system_data, only: system_t, pattern_t
+  use system_data, only: system_t
+  use system_pattern, only: add_block
   use system_loads, only: add_loads
   implicit none
   private
@@ -112,7 +113,7 @@ contains
         iterate%constraint(at) = iterate%constraint(at) + iterate%stress(first + i - 1)*jacobian(i, :)
       end do
     end associate
-    call scatter(system, e, element, tangent, jacobian, iterate%values)
+    call add_element(system, e, element, tangent, jacobian, iterate%values)
   end subroutine assemble_element
 
   !> What round-off in a coordinate is relative to: displacements and the element's size, one
@@ -139,39 +140,33 @@ contains
   end subroutine coordinate_sizes
 
   !> Add an element's tangent and constraint rows to the entries.
-  pure subroutine scatter(system, e, element, tangent, jacobian, values)
+  pure subroutine add_element(system, e, element, tangent, jacobian, values)
     type(system_t), intent(in) :: system
     integer, intent(in) :: e
     class(element_t), intent(in) :: element
     real(wp), intent(in) :: tangent(element%coordinates, element%coordinates)
     real(wp), intent(in) :: jacobian(element%strains, element%coordinates)
     real(wp), intent(inout) :: values(:)
-    integer :: i, j, k, n, rows, width
+    real(wp), allocatable :: bordered(:, :)
+    integer :: i, n, row
 
     n = element%coordinates
-    associate (place => system%pattern%place, multiplier => system%multiplier)
-      rows = count(multiplier(system%first(e) + 1:system%first(e + 1)) > 0)
-      width = n + rows
-      do j = 1, n
-        k = system%pattern%first(e) + (j - 1)*width - 1
-        do i = 1, n
-          if (place(k + i) > 0) values(place(k + i)) = values(place(k + i)) + tangent(i, j)
-        end do
-      end do
-      if (rows == 0) return
-      rows = n
-      do i = 1, element%strains
-        if (multiplier(system%first(e) + i) == 0) cycle
-        rows = rows + 1
-        do j = 1, n
-          k = system%pattern%first(e) + (j - 1)*width + rows - 1
-          if (place(k) > 0) values(place(k)) = values(place(k)) + jacobian(i, j)
-          k = system%pattern%first(e) + (rows - 1)*width + j - 1
-          if (place(k) > 0) values(place(k)) = values(place(k)) + jacobian(i, j)
-        end do
-      end do
-    end associate
-  end subroutine scatter
+    if (system%pattern%width(e) == n) then
+      call add_block(system%pattern, e, tangent, values)
+      return
+    end if
+    allocate (bordered(system%pattern%width(e), system%pattern%width(e)))
+    bordered = 0
+    bordered(:n, :n) = tangent
+    row = n
+    do i = 1, element%strains
+      if (system%multiplier(system%first(e) + i) == 0) cycle
+      row = row + 1
+      bordered(row, :n) = jacobian(i, :)
+      bordered(:n, row) = jacobian(i, :)
+    end do
+    call add_block(system%pattern, e, bordered, values)
+  end subroutine add_element
 
   !> Right-hand side of the mixed Newton step: loads minus forces of the strains; minus the fixed
   !> strains. Its solution is the increment and the new multipliers.

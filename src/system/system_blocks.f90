@@ -1,11 +1,11 @@
-!> Matrices of elements into the system's sparsity, and the symmetric part of a matrix.
+!> The symmetric part of a matrix in a square sparsity.
 module system_blocks
   use kinds, only: wp
   use system_data, only: pattern_t
   implicit none
   private
 
-  public :: half_t, add_block, new_half, fold
+  public :: half_t, new_half, fold
 
   !> Lower triangle of a square sparsity: entry k of it is the mean of two entries of the square.
   type :: half_t
@@ -14,25 +14,6 @@ module system_blocks
   end type half_t
 
 contains
-
-  !> Add a matrix to the first rows and columns of a block, those of its coordinates.
-  pure subroutine add_block(pattern, block, matrix, values)
-    type(pattern_t), intent(in) :: pattern
-    integer, intent(in) :: block
-    real(wp), intent(in) :: matrix(:, :)
-    real(wp), intent(inout) :: values(:)
-    integer :: i, j, k, width
-
-    width = nint(sqrt(real(pattern%first(block + 1) - pattern%first(block), wp)))
-    do j = 1, size(matrix, 2)
-      k = pattern%first(block) + (j - 1)*width - 1
-      do i = 1, size(matrix, 1)
-        associate (at => pattern%place(k + i))
-          if (at > 0) values(at) = values(at) + matrix(i, j)
-        end associate
-      end do
-    end do
-  end subroutine add_block
 
   !> The lower triangle, with the entries that mirror each other, in linear time. Rows of a
   !> pattern come in order; every entry has its mirror.

@@ -35,8 +35,11 @@ module system_data
   type :: pattern_t
     logical :: symmetric = .true.          !< lower triangle only
     integer, allocatable :: row(:), column(:)
+    integer, allocatable :: width(:)       !< by block: number of its unknowns, held ones included
     integer, allocatable :: first(:)       !< by block: start in `place`; one more at the end
-    integer, allocatable :: place(:)       !< entry of each pair of a block's unknowns; 0: none
+    !> Entry of each pair of a block's unknowns, column by column, only from the diagonal down if
+    !> the matrix is symmetric; 0: none, an unknown is held.
+    integer, allocatable :: place(:)
   end type pattern_t
 
   !> What an unknown is, for messages.

@@ -6,7 +6,7 @@ module system_geometric
   use element_base, only: element_t
   use system_data, only: system_t
   use system_assembly, only: iterate_t
-  use system_blocks, only: add_block
+  use system_pattern, only: add_block
   use system_loads, only: add_loads
   implicit none
   private

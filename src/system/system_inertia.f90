@@ -7,7 +7,7 @@ module system_inertia
   use rotation, only: cross, identity3
   use beamw_inertia, only: inertia_t, new_inertia, inertia_mass
   use system_data, only: system_t
-  use system_blocks, only: add_block
+  use system_pattern, only: add_block
   implicit none
   private
 

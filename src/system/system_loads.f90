@@ -4,7 +4,8 @@ module system_loads
   use nodal_state, only: state_t, coordinate_number
   use rotation, only: rotation_matrix, cross, skew, identity3
   use model_functions, only: function_value
-  use system_data, only: system_t, dead_load_t, pattern_t
+  use system_data, only: system_t, dead_load_t
+  use system_pattern, only: add_block
   implicit none
   private
 
@@ -43,7 +44,7 @@ contains
         call dead_load(load, factor(i), state, force, tangent)
         at = coordinate_number(load%node([1, 1, 1, 2, 2, 2, 3]), [1, 2, 3, 4, 5, 6, 7])
         total(at) = total(at) + force
-        call scatter(system%pattern, size(system%element) + i, tangent, values)
+        call add_block(system%pattern, size(system%element) + i, tangent, values)
       end associate
     end do
   end subroutine add_loads
@@ -102,22 +103,5 @@ contains
     tangent(4, 1:3) = tangent(1:3, 4)
     tangent(4, 4) = 0
   end subroutine dead_load
-
-  !> Add the matrix of a block to the entries.
-  pure subroutine scatter(pattern, block, matrix, values)
-    type(pattern_t), intent(in) :: pattern
-    integer, intent(in) :: block
-    real(wp), intent(in) :: matrix(:, :)
-    real(wp), intent(inout) :: values(:)
-    integer :: i, j, k
-
-    k = pattern%first(block)
-    do j = 1, size(matrix, 2)
-      do i = 1, size(matrix, 1)
-        if (pattern%place(k) > 0) values(pattern%place(k)) = values(pattern%place(k)) + matrix(i, j)
-        k = k + 1
-      end do
-    end do
-  end subroutine scatter
 
 end module system_loads

@@ -7,6 +7,7 @@ module system_results
   use rotation, only: rotated
   use system_data, only: system_t
   use system_assembly, only: iterate_t
+  use system_stress, only: point_stress
   implicit none
   private
 
@@ -25,6 +26,7 @@ module system_results
     real(wp), allocatable :: stress(:, :)         !< (8, members) their stress resultants [F]
     real(wp), allocatable :: force_p(:, :)        !< (7, members) N Vy Vz T My Mz B at end p
     real(wp), allocatable :: force_q(:, :)        !< the same at end q, on the positive face
+    real(wp), allocatable :: point_stress(:, :)   !< (4, places) total, axial, bending, warping
     real(wp), allocatable :: marker(:, :)         !< (3, markers) displacement [L]
   end type results_t
 
@@ -44,6 +46,7 @@ contains
     results%warping = iterate%state%warping
     call get_forces(system, iterate, results)
     call get_members(model, system, iterate, results)
+    results%point_stress = point_stress(model, results%force_p, results%force_q)
     allocate (results%marker(3, size(model%marker)))
     do i = 1, size(model%marker)
       results%marker(:, i) = marker_displacement(model, model%marker(i), iterate)

@@ -127,6 +127,7 @@ contains
                                                 "second=NONE      "]
     character(len=*), parameter :: mesh(3) = ["n=10", "n=20", "n=40"], corner(2) = ["z=14.2 ", "z=-14.2"]
     real(wp), parameter :: at_300(3) = [21.7805_wp, 0.0_wp, 21.5192_wp]
+    character(len=20) :: setting(3)
     type(memory_t) :: memory
     type(model_t) :: model
     integer :: i, j, k
@@ -134,7 +135,10 @@ contains
     do i = 1, 3
       do j = 1, 3
         do k = 1, 2
-          call solve("channel", memory, model, [character(len=20) :: second(i), mesh(j), corner(k)])
+          setting(1) = second(i)
+          setting(2) = mesh(j)
+          setting(3) = corner(k)
+          call solve("channel", memory, model, setting)
           call expect(memory%steps == 30, second(i)//" "//mesh(j)//" "//corner(k)//": 300 cm")
           if (memory%steps /= 30 .or. i > 1 .or. j == 2 .or. k == 2) cycle
           call expect_close(memory%record(30)%factor/at_300(j), 1.0_wp, 1.0e-3_wp, "F at 300 cm")
