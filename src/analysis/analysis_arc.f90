@@ -15,6 +15,7 @@ module analysis_arc
   use newton_method, only: newton_outcome_t, find_equilibrium, newton_converged, newton_interrupted
   use path_control, only: control_t, arc_product
   use stability_watch, only: watch_t, start_watch, watch_step
+  use branch_switch, only: lean_into_mode
   use equilibrium_path, only: safe_t, keep_safe, go_back, newton_options, check_dropped, failure
   use recorder, only: recorder_t, step_t, iteration_t
   implicit none
@@ -25,7 +26,8 @@ module analysis_arc
   real(wp), parameter :: aim = 4.5_wp                !< iterations a step should take
   real(wp), parameter :: most_growth = 2.0_wp        !< of the arc length from step to step
   real(wp), parameter :: shortest = 1.0e-6_wp        !< of the first arc, before giving up
-  real(wp), parameter :: longest = 0.15_wp           !< arc of one step: mean motion, model length or rad
+  real(wp), parameter :: longest = 0.15_wp           !< arc of one step: mean motion
+  real(wp), parameter :: branch_arc = 0.05_wp        !< at least, of the first step on a branch
   real(wp), parameter :: sharpest = 0.5_wp           !< cosine of the angle between two steps
 
   !> Where the path is and how it goes on.
@@ -59,6 +61,7 @@ contains
     call start_path(model, system, analysis, level, path)
     call start_watch(system, solver, analysis%stability, level, iterate, path%watch, error)
     if (allocated(error)) return
+    path%watch%branch = analysis%branch
     do step = 1, analysis%most_steps
       record = step_t(step=step)
       call take_step(model, system, solver, analysis, path, level, iterate, recorder, record, error)
@@ -87,13 +90,15 @@ contains
     path%control%heading = 0
     path%goal = analysis%factor
     path%first_rise = (path%goal - level(analysis%pattern))/20
-    if (analysis%first_increment > 0) &
+    if (analysis%first_increment > 0) then
       path%first_rise = sign(analysis%first_increment, path%first_rise)
+    end if
     if (analysis%stops) path%stop = new_measure(model, analysis%stop)
   end subroutine start_path
 
   !> One converged point further, however often the length must be cut.
-  subroutine take_step(model, system, solver, analysis, path, level, iterate, recorder, record, error)
+  subroutine take_step(model, system, solver, analysis, path, level, iterate, recorder, record, &
+                       error)
     type(model_t), intent(in) :: model
     type(system_t), intent(in) :: system
     type(solver_t), intent(inout) :: solver
@@ -110,11 +115,14 @@ contains
     call keep_safe(iterate, level, safe)
     do
       path%control%total = 0
-      if (path%control%kind == control_load) &
+      if (path%watch%at_branch) then
+        call lean_into_mode(system, path%watch%point, path%control%arc, level, iterate, path%control)
+      else if (path%control%kind == control_load) then
         level(analysis%pattern) = safe%level(analysis%pattern) + path%first_rise
+      end if
       call find_equilibrium(system, solver, newton_options(analysis), path%control, level, &
-                            iteration_t(step=record%step, factor=level(analysis%pattern)), iterate, &
-                            recorder, outcome, error)
+                            iteration_t(step=record%step, factor=level(analysis%pattern)), &
+                            iterate, recorder, outcome, error)
       if (allocated(error)) return
       record%iterations = record%iterations + outcome%last%iteration
       record%last = outcome%last
@@ -137,6 +145,7 @@ contains
     call watch_step(system, solver, newton_options(analysis), path%control, safe, record%step, &
                     path%watch, level, iterate, recorder, error)
     if (.not. path%ended) call lengthen(system, path, outcome%last%iteration)
+    if (path%watch%at_branch) path%control%arc = max(path%control%arc, branch_arc)
   end subroutine take_step
 
   !> Whether a step goes on about where the one before led; one that turns sharply has jumped to
@@ -188,8 +197,8 @@ contains
     end if
     if (record%cutbacks > 20 .or. (path%control%kind == control_arc .and. &
                                    path%control%arc < shortest*path%first_arc)) then
-      call fail(error, exit_solve, failure(model, system, analysis, level(analysis%pattern), record, &
-                                           outcome))
+      call fail(error, exit_solve, failure(model, system, analysis, level(analysis%pattern), &
+                                           record, outcome))
     else
       call recorder%remark("step "//to_text(record%step)//": arc halved at load factor "// &
                            to_text(level(analysis%pattern)))
@@ -197,7 +206,8 @@ contains
   end subroutine shorten
 
   !> A step beyond TO or STOP is corrected to end there exactly.
-  subroutine end_exactly(system, solver, analysis, path, safe, level, iterate, recorder, record, error)
+  subroutine end_exactly(system, solver, analysis, path, safe, level, iterate, recorder, record, &
+                         error)
     type(system_t), intent(in) :: system
     type(solver_t), intent(inout) :: solver
     type(analysis_t), intent(in) :: analysis

@@ -56,13 +56,15 @@ contains
     pencil%a = fold(half, iterate%values)
     pencil%q = -fold(half, geometric)
     if (system%pattern%symmetric) then
-      call find_multipliers(model, system, solver, pencil, analysis, level, iterate, recorder, error)
+      call find_multipliers(model, system, solver, pencil, analysis, level, iterate, recorder, &
+                            error)
       return
     end if
     if (.not. is_conservative(system, iterate)) call recorder%remark("warning: "//symmetric_part)
     call own%prepare(pencil%equations, half%row, half%column, .true., error)
-    if (.not. allocated(error)) &
+    if (.not. allocated(error)) then
       call find_multipliers(model, system, own, pencil, analysis, level, iterate, recorder, error)
+    end if
     call own%free()
   end subroutine run_buckling
 
@@ -177,7 +179,8 @@ contains
     call estimate_theta(solver, pencil, theta, error)
     if (allocated(error) .or. .not. theta > 0) return
     call count_between(solver, pencil, reach/theta, available(1), error)
-    if (.not. allocated(error)) call count_between(solver, pencil, -reach/theta, available(2), error)
+    if (.not. allocated(error)) call count_between(solver, pencil, -reach/theta, available(2), &
+                                                   error)
     if (.not. allocated(error)) call solver%factorize(pencil%a, error)
   end subroutine count_multipliers
 

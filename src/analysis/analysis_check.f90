@@ -32,6 +32,7 @@ contains
     call drop_redundant(system, dropped, error)
     if (.not. allocated(error)) then
       call print_counts(model, system, constraints, unit)
+      call print_defaults(model, unit)
       do i = 1, size(dropped)
         write (unit, "(a)") "overconstrained: "//strain_name(model, system, dropped(i))// &
           " follows from other constraints"
@@ -74,6 +75,20 @@ contains
     end subroutine line
 
   end subroutine print_counts
+
+  !> What the cards of the sections left to the program.
+  subroutine print_defaults(model, unit)
+    type(model_t), intent(in) :: model
+    integer, intent(in) :: unit
+    integer :: i
+
+    do i = 1, size(model%section)
+      associate (section => model%section(i))
+        if (section%defaults /= "") write (unit, "(a)") "defaults of SECTION "// &
+          trim(section%name)//": "//section%defaults
+      end associate
+    end do
+  end subroutine print_defaults
 
   !> Factorize the unloaded model and name what moves without strain.
   subroutine check_motions(model, system, unit, error)

@@ -52,6 +52,10 @@ contains
     type(masses_t) :: masses
     real(wp) :: mass(size(system%pattern%row))
 
+    if (system%unknowns == 0) then
+      call fail(error, exit_deck, "nothing can move: every coordinate is fixed")
+      return
+    end if
     call assemble(system, level, iterate)
     call new_masses(model, masses)
     if (size(masses%member) == 0) then
@@ -68,13 +72,15 @@ contains
     pencil%a = fold(half, iterate%values)
     pencil%q = fold(half, mass)
     if (system%pattern%symmetric) then
-      call find_frequencies(model, system, solver, pencil, masses, analysis, iterate, recorder, error)
+      call find_frequencies(model, system, solver, pencil, masses, analysis, iterate, recorder, &
+                            error)
       return
     end if
     if (.not. is_conservative(system, iterate)) call recorder%remark("warning: "//symmetric_part)
     call own%prepare(pencil%equations, half%row, half%column, .true., error)
-    if (.not. allocated(error)) &
+    if (.not. allocated(error)) then
       call find_frequencies(model, system, own, pencil, masses, analysis, iterate, recorder, error)
+    end if
     call own%free()
   end subroutine run_eigen
 
@@ -137,6 +143,7 @@ contains
       solution = pairs%vector(:, i)/sqrt(pairs%theta(i))
       solution = sign(1.0_wp, unit_factor(system, solution))*solution
       call add_mode(model, system, iterate, solution, modes)
+      if (abs(modes%eigenvalue(i)) <= 0) modes%energy(:, i) = 0
       modes%participation(:, i) = matmul(by_coordinate(system, solution), moving)
       modes%effective_mass(:, i) = modes%participation(:, i)**2
     end do
@@ -153,14 +160,14 @@ contains
     type(error_t), allocatable, intent(out) :: error
     real(wp), allocatable :: stiffness(:)
     real(wp) :: theta
-    integer, allocatable :: null(:)
+    integer, allocatable :: singular(:)
     integer :: attempt, below
 
     shift = 0
     call count_between(solver, pencil, 0.0_wp, below, error)
     if (allocated(error)) return
-    allocate (null, source=solver%null_pivots())
-    if (below == 0 .and. size(null) == 0) return
+    allocate (singular, source=solver%null_pivots())
+    if (below == 0 .and. size(singular) == 0) return
     call estimate_theta(solver, pencil, theta, error)
     if (allocated(error)) return
     if (.not. theta > 0) then
@@ -173,12 +180,13 @@ contains
       pencil%a = stiffness - shift*pencil%q
       call count_between(solver, pencil, 0.0_wp, below, error)
       if (allocated(error)) return
-      null = solver%null_pivots()
-      if (below == 0 .and. size(null) == 0) return
+      singular = solver%null_pivots()
+      if (below == 0 .and. size(singular) == 0) return
       shift = 2*shift
     end do
     call fail(error, exit_solve, "EIGEN: a motion without mass has no stiffness")
-    if (size(null) > 0) error%message = error%message//": "//unknown_name(model, system, null(1))
+    if (size(singular) == 0) return
+    error%message = error%message//": "//unknown_name(model, system, singular(1))
   end subroutine find_shift
 
   !> Name of an unknown.
@@ -189,8 +197,9 @@ contains
     character(len=:), allocatable :: name
 
     name = "a constraint"
-    if (unknown <= system%unknowns) &
+    if (unknown <= system%unknowns) then
       name = coordinate_name(model, findloc(system%unknown, unknown, 1))
+    end if
   end function unknown_name
 
   !> What the user has to know of the spectrum.

@@ -2,7 +2,7 @@
 module analysis_run
   use kinds, only: wp
   use errors, only: error_t, fail, exit_deck
-  use model_data, only: model_t, control_arc
+  use model_data, only: model_t, analysis_t, control_arc, analysis_buckling, analysis_eigen
   use linalg_solver, only: solver_t
   use system_data, only: system_t
   use system_build, only: build_system, find_system_pattern
@@ -11,6 +11,8 @@ module analysis_run
   use system_names, only: coordinate_name, strain_name
   use analysis_static, only: run_static
   use analysis_arc, only: run_arc
+  use analysis_buckling, only: run_buckling
+  use analysis_eigen, only: run_eigen
   use recorder, only: recorder_t
   implicit none
   private
@@ -36,7 +38,9 @@ contains
       call solver%prepare(system%equations(), system%pattern%row, system%pattern%column, &
                           system%pattern%symmetric, error)
     end if
-    if (.not. allocated(error)) call refuse_free_motion(model, system, solver, iterate, error)
+    if (.not. allocated(error) .and. any(model%analysis%kind /= analysis_eigen)) then
+      call refuse_free_motion(model, system, solver, iterate, error)
+    end if
     if (.not. allocated(error)) call run_in_order(model, system, solver, iterate, recorder, error)
     call solver%free()
     call system%free()
@@ -57,16 +61,36 @@ contains
     do i = 1, size(model%analysis)
       call recorder%begin(i, model%analysis(i), error)
       if (allocated(error)) return
-      if (model%analysis(i)%control == control_arc) then
-        call run_arc(model, system, solver, model%analysis(i), level, iterate, recorder, error)
-      else
-        call run_static(model, system, solver, model%analysis(i), level, iterate, recorder, error)
-      end if
+      call run_one(model, system, solver, model%analysis(i), level, iterate, recorder, error)
       call recorder%finish(.not. allocated(error), second)
       if (.not. allocated(error) .and. allocated(second)) call move_alloc(second, error)
       if (allocated(error)) return
     end do
   end subroutine run_in_order
+
+  subroutine run_one(model, system, solver, analysis, level, iterate, recorder, error)
+    type(model_t), intent(in) :: model
+    type(system_t), intent(in) :: system
+    type(solver_t), intent(inout) :: solver
+    type(analysis_t), intent(in) :: analysis
+    real(wp), intent(inout) :: level(:)
+    type(iterate_t), intent(inout) :: iterate
+    class(recorder_t), intent(inout) :: recorder
+    type(error_t), allocatable, intent(out) :: error
+
+    select case (analysis%kind)
+    case (analysis_buckling)
+      call run_buckling(model, system, solver, analysis, level, iterate, recorder, error)
+    case (analysis_eigen)
+      call run_eigen(model, system, solver, analysis, level, iterate, recorder, error)
+    case default
+      if (analysis%control == control_arc) then
+        call run_arc(model, system, solver, analysis, level, iterate, recorder, error)
+      else
+        call run_static(model, system, solver, analysis, level, iterate, recorder, error)
+      end if
+    end select
+  end subroutine run_one
 
   !> Redundant constraints that agree are left out, with a warning for each.
   subroutine warn_of_redundant(model, system, recorder, error)

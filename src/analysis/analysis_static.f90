@@ -29,8 +29,8 @@ module analysis_static
 
 contains
 
-  !> Take the analysis' load factor, or the displacement it controls, from where it stands to its end
-  !> in equal steps; `level` holds the factors of all patterns and is left at what was reached.
+  !> Take the analysis' load factor, or the displacement it controls, from where it stands to its
+  !> end in equal steps; `level` holds the factors of all patterns and is left at what was reached.
   subroutine run_static(model, system, solver, analysis, level, iterate, recorder, error)
     type(model_t), intent(in) :: model
     type(system_t), intent(in) :: system
@@ -55,8 +55,9 @@ contains
     if (control%kind == control_displacement) end = analysis%controlled%value
     do step = 1, analysis%steps
       record = step_t(step=step)
-      call reach(model, system, solver, analysis, control, start + (end - start)*step/analysis%steps, &
-                 watch, level, iterate, recorder, record, error)
+      call reach(model, system, solver, analysis, control, &
+                 start + (end - start)*step/analysis%steps, watch, level, iterate, recorder, &
+                 record, error)
       if (.not. allocated(error)) call check_dropped(model, system, iterate, error)
       if (allocated(error)) return
       if (analysis%pattern > 0) record%factor = level(analysis%pattern)
@@ -74,7 +75,9 @@ contains
 
     control%kind = analysis%control
     control%pattern = analysis%pattern
-    if (control%kind == control_displacement) control%measure = new_measure(model, analysis%controlled)
+    if (control%kind == control_displacement) then
+      control%measure = new_measure(model, analysis%controlled)
+    end if
   end function new_control
 
   !> What the steps count: the load factor or the controlled displacement.
@@ -93,8 +96,8 @@ contains
   end function parameter_value
 
   !> Go to a value of the parameter, in one increment or several.
-  subroutine reach(model, system, solver, analysis, control, goal, watch, level, iterate, recorder, &
-                   record, error)
+  subroutine reach(model, system, solver, analysis, control, goal, watch, level, iterate, &
+                   recorder, record, error)
     type(model_t), intent(in) :: model
     type(system_t), intent(in) :: system
     type(solver_t), intent(inout) :: solver
@@ -118,16 +121,17 @@ contains
     do while (left > 0)
       call keep_safe(iterate, level, safe)
       control%target = goal - whole*(left - share)/finest
-      if (control%kind == control_load .and. control%pattern > 0) &
+      if (control%kind == control_load .and. control%pattern > 0) then
         level(control%pattern) = control%target
+      end if
       call find_equilibrium(system, solver, newton_options(analysis), control, level, &
-                            iteration_t(step=record%step, factor=control%target), iterate, recorder, &
-                            outcome, error)
+                            iteration_t(step=record%step, factor=control%target), iterate, &
+                            recorder, outcome, error)
       record%iterations = record%iterations + outcome%last%iteration
       if (allocated(error)) return
       if (outcome%status == newton_converged) then
-        call watch_step(system, solver, newton_options(analysis), control, safe, record%step, watch, &
-                        level, iterate, recorder, error)
+        call watch_step(system, solver, newton_options(analysis), control, safe, record%step, &
+                        watch, level, iterate, recorder, error)
         if (allocated(error)) return
         left = left - share
         if (outcome%last%iteration <= easy) share = 2*share
@@ -135,15 +139,16 @@ contains
         cycle
       end if
       call go_back(safe, iterate, level)
-      call give_way(model, system, analysis, goal - whole*left/finest, whole/finest, record, outcome, &
-                    recorder, share, error)
+      call give_way(model, system, analysis, goal - whole*left/finest, whole/finest, record, &
+                    outcome, recorder, share, error)
       if (allocated(error)) return
     end do
     record%last = outcome%last
   end subroutine reach
 
   !> After a failure: half the increment, or the end.
-  subroutine give_way(model, system, analysis, reached, unit, record, outcome, recorder, share, error)
+  subroutine give_way(model, system, analysis, reached, unit, record, outcome, recorder, share, &
+                      error)
     type(model_t), intent(in) :: model
     type(system_t), intent(in) :: system
     type(analysis_t), intent(in) :: analysis

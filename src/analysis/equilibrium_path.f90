@@ -13,7 +13,8 @@ module equilibrium_path
   implicit none
   private
 
-  public :: safe_t, keep_safe, go_back, newton_options, check_dropped, failure, reason, parameter_name
+  public :: safe_t, keep_safe, go_back, newton_options, check_dropped
+  public :: failure, reason, parameter_name
 
   !> A state to come back to.
   type :: safe_t
@@ -29,8 +30,9 @@ contains
     real(wp), intent(in) :: level(:)
     type(safe_t), intent(inout) :: safe
 
-    if (.not. allocated(safe%stress)) &
+    if (.not. allocated(safe%stress)) then
       allocate (safe%stress(size(iterate%stress)), safe%level(size(level)))
+    end if
     safe%state = iterate%state
     safe%stress = iterate%stress
     safe%level = level

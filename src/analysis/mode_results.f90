@@ -5,8 +5,11 @@ module mode_results
   use text, only: string_t, to_text
   use nodal_state, only: node_coordinates
   use element_base, only: element_t
-  use model_data, only: model_t
+  use beamw_rigidity, only: rigidity_t
+  use beamw_constants, only: beamw_t, new_beamw, beamw_none, beamw_consistent
+  use model_data, only: model_t, mode_fixed, mode_flexible, second_consistent
   use system_data, only: system_t
+  use system_constants, only: member_rigidity
   use system_assembly, only: iterate_t
   use system_constraints, only: coordinate_scale
   use system_results, only: result_modes, shear_centre_shift
@@ -21,8 +24,8 @@ module mode_results
     ["axial    ", "torsion  ", "bending y", "bending z", "warping  "]
 
   character(len=*), parameter, public :: symmetric_part = &
-    "dead moments on free rotations make the tangent unsymmetric; its symmetric part is used,"// &
-    " which is exact for moments that follow half of the rotation (semitangential)"
+    "dead moments on free rotations are not conservative: the modes are those of semitangential"// &
+    " moments, with the symmetric part of the tangent"
 
   !> Modes of a BUCKLING or EIGEN analysis, arrays with the mode last.
   type :: modes_t
@@ -31,7 +34,7 @@ module mode_results
     real(wp), allocatable :: load_factor(:)         !< BUCKLING: present factor and multiplier
     real(wp), allocatable :: eigenvalue(:)          !< EIGEN: omega squared [T^-2]
     real(wp), allocatable :: frequency(:)           !< EIGEN: real part [1/T]; 0 if unstable
-    real(wp), allocatable :: imaginary(:)           !< EIGEN: imaginary part [1/T] of an unstable one
+    real(wp), allocatable :: imaginary(:)           !< EIGEN: imaginary part of an unstable one
     real(wp), allocatable :: displacement(:, :, :)  !< (3, nodes, modes)
     real(wp), allocatable :: rotation(:, :, :)      !< (3, nodes, modes) spatial
     real(wp), allocatable :: warping(:, :)          !< (nodes, modes)
@@ -94,8 +97,9 @@ contains
     end do
   end function by_coordinate
 
-  !> Strains and stresses about the centroid, as of a state; shares of the energy by the strains
-  !> about the shear centre, half strain times stress, which are free of coupling there.
+  !> Strains and stresses about the centroid, as of a state, and the shares of the energy, half
+  !> strain times stress, about the shear centre: what St. Venant's torsion has not of the modes 2,
+  !> 7 and 8 is that of warping.
   pure subroutine add_members(model, system, iterate, motion, stress, modes)
     type(model_t), intent(in) :: model
     type(system_t), intent(in) :: system
@@ -103,19 +107,24 @@ contains
     real(wp), intent(in) :: motion(:), stress(:)
     type(modes_t), intent(inout) :: modes
     real(wp) :: strain(result_modes), force(result_modes), share(energy_kinds), shift(4)
+    real(wp) :: twist(3, 3), product(result_modes)
     integer :: e
 
     share = 0
+    twist = 0
     do e = 1, system%members
       associate (element => system%element(e)%e, first => system%first(e), &
                  jacobian => iterate%jacobian(system%jacobian(e) + 1:system%jacobian(e + 1)))
         strain = mode_strain(element, jacobian, motion)
         force = stress(first + 1:first + result_modes)
       end associate
-      share(1:2) = share(1:2) + strain(1:2)*force(1:2)
-      share(3) = share(3) + dot_product(strain(3:4), force(3:4))
-      share(4) = share(4) + dot_product(strain(5:6), force(5:6))
-      share(5) = share(5) + dot_product(strain(7:8), force(7:8))
+      product = strain*force
+      if (.not. like_previous(model, e)) twist = torsion_stiffness(model, e)
+      product(2) = dot_product(strain([2, 7, 8]), matmul(twist, strain([2, 7, 8])))
+      share(1:2) = share(1:2) + product(1:2)
+      share(3) = share(3) + sum(product(3:4))
+      share(4) = share(4) + sum(product(5:6))
+      share(5) = share(5) + strain(2)*force(2) + sum(product(7:8)) - product(2)
       shift = shear_centre_shift(model, e)
       strain(3:6) = strain(3:6) - shift*strain(2)
       force(2) = force(2) + dot_product(shift, force(3:6))
@@ -125,6 +134,43 @@ contains
     if (sum(share) > 0) share = share/sum(share)
     modes%energy(:, modes%modes) = share
   end subroutine add_members
+
+  !> Whether a member has the torsion stiffness of the one before it.
+  pure logical function like_previous(model, e)
+    type(model_t), intent(in) :: model
+    integer, intent(in) :: e
+
+    like_previous = .false.
+    if (e == 1) return
+    associate (a => model%member(e - 1), b => model%member(e))
+      if (a%section /= b%section .or. a%material /= b%material .or. a%second /= b%second) return
+      if (a%has_stiffness .or. b%has_stiffness .or. (a%shear .neqv. b%shear)) return
+      if (any(a%status /= b%status) .or. (a%rigid .neqv. b%rigid)) return
+      like_previous = abs(norm2(a%chord) - norm2(b%chord)) <= 1.0e-9_wp*norm2(a%chord)
+    end associate
+  end function like_previous
+
+  !> St. Venant's part of the stiffness of the modes 2, 7 and 8: what it loses without GIt.
+  pure function torsion_stiffness(model, e) result(stiffness)
+    type(model_t), intent(in) :: model
+    integer, intent(in) :: e
+    real(wp) :: stiffness(3, 3)
+    type(rigidity_t) :: rigidity
+    type(beamw_t) :: constants
+
+    stiffness = 0
+    associate (m => model%member(e))
+      if (m%rigid .or. m%status(2) == mode_fixed .or. .not. any(m%status == mode_flexible)) return
+      rigidity = member_rigidity(model, m)
+      constants = new_beamw(rigidity, norm2(m%chord), &
+                            merge(beamw_consistent, beamw_none, m%second == second_consistent))
+      stiffness = constants%s([2, 7, 8], [2, 7, 8])
+      rigidity%git = 0
+      constants = new_beamw(rigidity, norm2(m%chord), &
+                            merge(beamw_consistent, beamw_none, m%second == second_consistent))
+      stiffness = stiffness - constants%s([2, 7, 8], [2, 7, 8])
+    end associate
+  end function torsion_stiffness
 
   pure function mode_strain(element, jacobian, motion) result(strain)
     class(element_t), intent(in) :: element
@@ -216,7 +262,8 @@ contains
 
     unit = " "
     if (modes%imaginary(i) > 0) unit = "i"
-    write (numbers, "(i6, 2a, 3(f9.3, ' %'))") i, right(modes%frequency(i) + modes%imaginary(i)), unit, &
+    write (numbers, "(i6, 2a, 3(f9.3, ' %'))") i, right(modes%frequency(i) + modes%imaginary(i)), &
+      unit, &
       100*modes%effective_mass(1:3, i)/max(modes%rigid_mass(1:3), tiny(1.0_wp))
     line = trim(numbers)//"   "//mode_kind(modes%energy(:, i))
   end function frequency_line

@@ -163,8 +163,9 @@ contains
         call assemble(system, level, iterate)
       end if
       call advance(system, solution, share, iterate, increment)
-      if (control%kind /= control_load) &
+      if (control%kind /= control_load) then
         level(control%pattern) = start(control%pattern) + share*rise
+      end if
       outcome%status = newton_diverged
       if (.not. measure(system, increment) < far) return
       call assemble(system, level, iterate)
@@ -235,8 +236,8 @@ contains
     largest = 0
     do k = 1, size(motion)
       if (system%unknown(k) == 0) cycle
-      if (.not. abs(motion(k)) <= largest*coordinate_scale(system, k)) &
-        largest = abs(motion(k))/coordinate_scale(system, k)
+      if (abs(motion(k)) <= largest*coordinate_scale(system, k)) cycle
+      largest = abs(motion(k))/coordinate_scale(system, k)
     end do
   end function measure
 

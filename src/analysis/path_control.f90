@@ -38,7 +38,6 @@ contains
     real(wp), intent(in) :: residual(:), direction(:)
     real(wp) :: increment
 
-    increment = 0
     select case (control%kind)
     case (control_displacement)
       increment = measure_increment(control, iterate, residual, direction)
@@ -51,6 +50,8 @@ contains
                      - arc_product(system, control%total, residual)) &
                     /arc_product(system, control%total, direction)
       end if
+    case default
+      increment = 0
     end select
   end function load_increment
 

@@ -3,9 +3,10 @@
 module recorder
   use kinds, only: wp
   use errors, only: error_t, fail, exit_solve
-  use text, only: to_text
+  use text, only: to_text, string_t
   use model_data, only: analysis_t
   use system_results, only: results_t
+  use mode_results, only: modes_t, mode_lines
   implicit none
   private
 
@@ -44,6 +45,7 @@ module recorder
   type, abstract, public :: recorder_t
   contains
     procedure :: critical_point
+    procedure :: modes
     procedure(begin_interface), deferred :: begin
     procedure(iteration_interface), deferred :: iteration
     procedure(remark_interface), deferred :: remark
@@ -107,6 +109,21 @@ module recorder
   end interface
 
 contains
+
+  !> Modes of BUCKLING or EIGEN: a line for each.
+  subroutine modes(self, modes_found, error)
+    class(recorder_t), intent(inout) :: self
+    type(modes_t), intent(in) :: modes_found
+    type(error_t), allocatable, intent(out) :: error
+    type(string_t), allocatable :: line(:)
+    integer :: i
+
+    call mode_lines(modes_found, line)
+    do i = 1, size(line)
+      call self%remark(line(i)%s)
+    end do
+    if (size(line) < 0) call fail(error, exit_solve, "")
+  end subroutine modes
 
   !> A critical point was passed: a line of it, unless a recorder keeps more.
   subroutine critical_point(self, point, error)

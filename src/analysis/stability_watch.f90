@@ -32,6 +32,9 @@ module stability_watch
   type :: watch_t
     integer :: stability = stability_off  !< what the analysis asks for, one of `stability_*`
     integer :: unstable = -1              !< unstable modes at the last equilibrium; -1: not counted
+    logical :: branch = .false.           !< stop at the first bifurcation
+    logical :: at_branch = .false.        !< the present state is that bifurcation, `point`
+    type(critical_t) :: point
   end type watch_t
 
 contains
@@ -54,7 +57,7 @@ contains
 
   !> Look at the equilibrium that an increment of `control` has reached from `before`: report the
   !> critical points between them. Stability REQUIRED and lost is an error; the state is then that
-  !> of `before`.
+  !> of `before`. A bifurcation where the path is to branch becomes the present state.
   subroutine watch_step(system, solver, options, control, before, step, watch, level, iterate, &
                         recorder, error)
     type(system_t), intent(in) :: system
@@ -74,6 +77,11 @@ contains
 
     if (watch%stability == stability_off) return
     call count_unstable(system, solver, iterate, unstable, error)
+    if (watch%at_branch) then
+      watch%at_branch = .false.
+      watch%branch = .false.
+      watch%unstable = unstable
+    end if
     if (allocated(error) .or. unstable == watch%unstable) return
     call keep_safe(iterate, level, reached)
     call locate_critical(system, solver, options, control, before, watch%unstable, level, iterate, &
@@ -84,6 +92,11 @@ contains
     point%behind = unstable
     call recorder%critical_point(point, error)
     if (allocated(error)) return
+    if (watch%branch .and. point%kind == critical_bifurcation) then
+      watch%at_branch = .true.
+      watch%point = point
+      return
+    end if
     call go_back(reached, iterate, level)
     if (watch%stability == stability_required .and. unstable > 0) then
       call go_back(before, iterate, level)
@@ -166,8 +179,8 @@ contains
 
   !> Equilibrium at a fraction of the increment from `before`; its whole is known from `control`
   !> or, for loads and displacements, from the far end.
-  subroutine probe(system, solver, options, control, before, far, fraction, level, iterate, recorder, &
-                   found, error)
+  subroutine probe(system, solver, options, control, before, far, fraction, level, iterate, &
+                   recorder, found, error)
     type(system_t), intent(in) :: system
     type(solver_t), intent(inout) :: solver
     type(newton_t), intent(in) :: options
@@ -193,7 +206,8 @@ contains
       start = control%measure%value(before%state)
       part%target = start + fraction*(control%target - start)
     case default
-      level(control%pattern) = level(control%pattern) + fraction*(control%target - level(control%pattern))
+      start = level(control%pattern)
+      level(control%pattern) = start + fraction*(control%target - start)
     end select
     if (allocated(part%total)) part%total = 0
     call find_equilibrium(system, solver, options, part, level, iteration_t(), iterate, recorder, &

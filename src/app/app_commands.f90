@@ -12,6 +12,7 @@ module app_commands
   use analysis_run, only: run_analyses
   use analysis_check, only: check_model
   use output_log, only: log_quiet
+  use output_constants, only: print_section, print_sections_json
   use output_recorder, only: run_recorder_t, run_options_t
   use app_options, only: command_t, get_words, parse_words
   use app_help, only: print_help
@@ -54,6 +55,8 @@ contains
       call run_deck(command, error)
     case ("check")
       call check_deck(command, error)
+    case ("section")
+      call show_sections(command, error)
     case ("keywords")
       call show_keywords(command, error)
     case ("version")
@@ -70,7 +73,8 @@ contains
     type(error_t), allocatable, intent(out) :: error
     type(report_t) :: report
 
-    call read_deck(command%argument, command%setting, model, report, error)
+    call read_deck(command%argument, command%setting, model, report, error, &
+                   parts=command%action == "section")
     if (allocated(error)) return
     if (report%errors() > 0 .or. command%level > log_quiet) call report%print(error_unit)
     if (report%errors() > 0) call fail(error, exit_deck, command%argument//": "// &
@@ -132,6 +136,45 @@ contains
     call load_deck(command, model, error)
     if (.not. allocated(error)) call check_model(model, output_unit, error)
   end subroutine check_deck
+
+  !> spar section
+  subroutine show_sections(command, error)
+    type(command_t), intent(in) :: command
+    type(error_t), allocatable, intent(out) :: error
+    type(model_t) :: model
+    logical, allocatable :: shown(:)
+    integer :: i
+
+    call load_deck(command, model, error)
+    if (allocated(error)) return
+    shown = model%section%name == command%name .or. command%name == ""
+    if (.not. any(shown)) then
+      call refuse_section(command, model, error)
+    else if (command%json) then
+      call print_sections_json(output_unit, model, shown)
+    else
+      do i = 1, size(shown)
+        if (.not. shown(i)) cycle
+        if (any(shown(:i - 1))) write (output_unit, "(a)")
+        call print_section(output_unit, model, model%section(i))
+      end do
+    end if
+  end subroutine show_sections
+
+  subroutine refuse_section(command, model, error)
+    type(command_t), intent(in) :: command
+    type(model_t), intent(in) :: model
+    type(error_t), allocatable, intent(out) :: error
+    character(len=:), allocatable :: near
+
+    if (command%name == "") then
+      call fail(error, exit_deck, command%argument//": the deck has no sections")
+    else
+      near = nearest_word(command%name, model%section%name)
+      if (near /= "") near = newline//"    hint: did you mean "//near//"?"
+      call fail(error, exit_usage, command%argument//": no section "//quoted(command%name)//near)
+    end if
+  end subroutine refuse_section
 
   !> spar keywords
   subroutine show_keywords(command, error)

@@ -17,6 +17,8 @@ contains
       call print_run(unit)
     case ("check")
       call print_check(unit)
+    case ("section")
+      call print_section(unit)
     case ("keywords")
       call print_keywords(unit)
     case default
@@ -32,6 +34,7 @@ contains
       "", &
       "  spar run DECK              solve a deck, write the results to an HDF5 file", &
       "  spar check DECK            read, check and explain a deck, run nothing", &
+      "  spar section DECK [NAME]   the constants of the sections, or of one", &
       "  spar keywords [KEYWORD]    the keywords of a deck, or one in full", &
       "  spar COMMAND --help        the options of a command", &
       "  spar --version", &
@@ -65,6 +68,17 @@ contains
       "", &
       "  -D NAME=VALUE      value of a name, in place of the deck's SET; may be repeated"
   end subroutine print_check
+
+  subroutine print_section(unit)
+    integer, intent(in) :: unit
+
+    write (unit, "(a)") &
+      "spar section DECK [NAME] [options]    the constants of the sections of a deck, or of one,", &
+      "                                      with a drawing; the deck may have nothing else", &
+      "", &
+      "  -D NAME=VALUE      value of a name, in place of the deck's SET; may be repeated", &
+      "  --json             as JSON, in full precision"
+  end subroutine print_section
 
   subroutine print_keywords(unit)
     integer, intent(in) :: unit

@@ -10,7 +10,8 @@ module app_options
 
   public :: command_t, get_words, parse_words
 
-  character(len=*), parameter, public :: commands(3) = ["run     ", "check   ", "keywords"]
+  character(len=*), parameter, public :: commands(4) = &
+    ["run     ", "check   ", "section ", "keywords"]
 
   !> What the user asks for.
   type :: command_t
@@ -20,6 +21,8 @@ module app_options
     type(setting_t), allocatable :: setting(:) !< -D
     logical :: overwrite = .true.
     logical :: progress = .true.
+    character(len=:), allocatable :: name      !< of a section; empty: all
+    logical :: json = .false.
     logical :: markdown = .false.
     integer :: level = log_normal              !< one of `log_*`
   end type command_t
@@ -47,6 +50,7 @@ contains
 
     command%argument = ""
     command%output = ""
+    command%name = ""
     allocate (command%setting(0))
     if (size(words) == 0) then
       call refuse("no command given", "", error)
@@ -104,6 +108,9 @@ contains
         else if (options .and. index(word, "-") == 1 .and. len(word) > 1) then
           call parse_option(words, i, command, error)
           if (allocated(error) .or. command%action == "help") return
+        else if (command%action == "section" .and. command%argument /= "" .and. &
+                 command%name == "" .and. word /= "") then
+          command%name = word
         else if (command%argument /= "" .or. word == "") then
           call refuse("unexpected argument "//quoted(word), "", error, command%action)
           return
@@ -146,6 +153,8 @@ contains
     case ("--quiet", "--verbose")
       if (command%level /= log_normal) call refuse("give --quiet or --verbose once", "", error)
       command%level = merge(log_quiet, log_verbose, option == "--quiet")
+    case ("--json")
+      command%json = .true.
     case ("--markdown")
       command%markdown = .true.
     case default
@@ -165,6 +174,8 @@ contains
                  "--verbose", "--no-progress"]
     case ("check")
       options = [character(len=14) :: "-h", "--help", "-D"]
+    case ("section")
+      options = [character(len=14) :: "-h", "--help", "-D", "--json"]
     case default
       options = [character(len=14) :: "-h", "--help", "--markdown"]
     end select

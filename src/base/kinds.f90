@@ -5,6 +5,6 @@ module kinds
   private
 
   integer, parameter, public :: wp = real64    !< kind of every real
-  integer, parameter, public :: i8 = int64     !< kind of clocks and of counts beyond two thousand million
+  integer, parameter, public :: i8 = int64     !< kind of clocks and of large counts
 
 end module kinds

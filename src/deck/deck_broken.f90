@@ -9,6 +9,7 @@ module deck_broken
   use deck_settings, only: is_identifier
   use deck_values, only: read_range
   use deck_model_cards, only: node_number
+  use deck_section_cards, only: open_drawing
   implicit none
   private
 
@@ -33,6 +34,9 @@ contains
       call mark_name(card, draft%materials)
     case ("SECTION")
       call mark_name(card, draft%sections)
+      call open_drawing(draft, 0)
+    case ("POINT", "PLATE")
+      if (draft%drawn > 0) draft%drawing(draft%drawn)%broken = .true.
     case ("FUNCTION")
       call mark_name(card, draft%functions)
     case ("GROUP", "MARKER")

@@ -10,6 +10,7 @@ module deck_draft
   use deck_registry, only: registry_t
   use deck_settings, only: settings_t
   use deck_expression, only: scope_t
+  use deck_drawing, only: drawing_t
   implicit none
   private
 
@@ -100,6 +101,9 @@ module deck_draft
     logical :: elements_incomplete = .false.          !< some element card had errors
     type(beam_t), allocatable :: beam(:)
     integer :: beams = 0
+    type(drawing_t), allocatable :: drawing(:)        !< of SECTION PLATES cards
+    integer :: drawings = 0
+    integer :: drawn = 0                              !< where POINT and PLATE go; 0: nowhere
     type(selection_t), allocatable :: selection(:)
     integer :: selections = 0
     type(item_t), allocatable :: item(:)
@@ -112,6 +116,7 @@ module deck_draft
     type(iteration_t) :: iteration
     character(len=:), allocatable :: include_path     !< set by an INCLUDE card
     type(place_t) :: include_place
+    logical :: complete = .true.                      !< a model to be run, not parts of one
     logical :: finished = .false.                     !< VISUALIZATION was read
     character(len=:), allocatable :: kept             !< the text read so far, and spare room
     integer :: kept_length = 0

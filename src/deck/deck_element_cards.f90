@@ -1,7 +1,9 @@
 !> Cards about elements: BEAMW, DYNE, RLSE, ESTIFF, EM.
 module deck_element_cards
   use text, only: to_text
+  use errors, only: error_t
   use diagnostics, only: place_t
+  use section_check, only: check_product
   use model_data, only: second_none, second_jonker, second_consistent, mass_none, mass_lumped, &
                         mass_consistent, translational, warping
   use deck_card, only: card_t
@@ -172,6 +174,7 @@ contains
     type(draft_t), intent(inout) :: draft
     integer, intent(in) :: kind
     type(record_t) :: record
+    type(error_t), allocatable :: error
     integer :: i
 
     record%kind = kind
@@ -182,6 +185,13 @@ contains
       call draft%report%add_error(card%place(2 + i), "a stiffness or mass cannot be negative")
       return
     end do
+    if (kind == record_inertia) then
+      call check_product(record%value(3), record%value(4), record%value(5), error)
+      if (allocated(error)) then
+        call draft%report%add_error(card%place(7), "rho "//error%message)
+        return
+      end if
+    end if
     call add_record(card, 2, draft, record)
   end subroutine add_values
 

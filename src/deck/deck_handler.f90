@@ -24,7 +24,7 @@ module deck_handler
     character(len=8) :: stage = ""       !< "model", "load", "analysis" or "form"
     character(len=240) :: forms = ""     !< see deck_usage
     character(len=400) :: options = ""   !< see deck_usage
-    character(len=400) :: help = ""
+    character(len=600) :: help = ""
     character(len=400) :: example = ""   !< cards separated by `|`
     character(len=80) :: spacar = ""     !< SPACAR's equivalent, if any
     procedure(card_handler), pointer, nopass :: apply => null()

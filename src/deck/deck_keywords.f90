@@ -3,11 +3,14 @@ module deck_keywords
   use deck_handler, only: keyword_t
   use deck_model_cards, only: read_title, read_set, read_include, read_nothing, &
                               read_visualization, read_outlevel, read_node, read_material, &
-                              read_constants, read_group_nodes, read_group_elements
+                              read_group_nodes, read_group_elements
+  use deck_section_cards, only: read_constants, read_shape, read_plates, read_point, read_plate, &
+                                shape_options
+  use section_shapes, only: shape_rules
   use deck_function_cards, only: read_ramp, read_sine, read_step, read_table, read_formula
   use deck_element_cards, only: read_beamw, read_dyne, read_rlse, read_estiff, read_em
   use deck_load_cards, only: read_fix, read_marker, read_xf, read_delxf, read_gravity, &
-                             read_static, read_iterstep
+                             read_static, read_buckling, read_eigen, read_iterstep
   implicit none
   private
 
@@ -19,8 +22,8 @@ contains
   function keywords() result(table)
     type(keyword_t), allocatable :: table(:)
 
-    table = [form_keywords(), model_keywords(), element_keywords(), function_keywords(), &
-             load_keywords(), analysis_keywords()]
+    table = [form_keywords(), model_keywords(), shape_keywords(), drawing_keywords(), &
+             element_keywords(), function_keywords(), load_keywords(), analysis_keywords()]
   end function keywords
 
   !> What concerns the deck itself.
@@ -49,7 +52,7 @@ contains
         "OUTLEVEL 0 1", "OUTLEVEL", read_outlevel)]
   end function form_keywords
 
-  !> Nodes, materials, sections.
+  !> Nodes, materials, sections by constants.
   function model_keywords() result(table)
     type(keyword_t), allocatable :: table(:)
 
@@ -70,12 +73,77 @@ contains
         "dzw:L^3=0 | "// &
         "BY by:L=0 | BZ bz:L=0 | BW bw:1=0 | IR ir:L^6=0", &
         "gives a section by its constants about the principal axes through the centroid: area, "// &
-        "second moments, torsion and warping constants, shear centre, shear rigidities "// &
-        "(without them rigid in shear), Wagner constants", &
+        "second moments, torsion and warping constants, shear centre, shear rigidities over G "// &
+        "(rigid where DY, DZ or DW is not given), Wagner constants. `spar section` prints "// &
+        "those of a shape or a drawing", &
         "SECTION tube CONSTANTS A 10 IY 80 IZ 90 IT 170|SECTION c CONSTANTS A 58.8 IY 8038.7 "// &
         "IZ 559.9 IT 35.4 IW 78943 YS -6.08 &| DY 13.4 DZ 26.8 DW 4339 DZW 59.4 BZ 31.6", &
         "", read_constants)]
   end function model_keywords
+
+  !> Sections by name: a row for each shape, its options those of the shape's rule.
+  function shape_keywords() result(table)
+    type(keyword_t) :: table(size(shape_rules))
+    character(len=*), parameter :: faces = ". OUTER (default): sizes over the faces; MIDLINE: "// &
+      "between the midlines of the walls"
+    character(len=*), parameter :: shear = ". Its shear coefficients are for Poisson's ratio of "// &
+      "the material it is used with (of several: the first; of none: 0.3)"
+    character(len=*), parameter :: help(size(shape_rules)) = [character(len=400) :: &
+      "is a channel: height H along z, flanges B, T (upper) and B2, T2 (lower) towards +y, web "// &
+      "TW at the left, lips LIP turned inwards. Points: 1 upper tip, 2 3 corners, 4 lower tip, "// &
+      "5 6 ends of the lips"//faces, &
+      "is an I: height H along z, flanges B, T (upper) and B2, T2 (lower), web TW. Points: "// &
+      "1 2 3 upper flange from -y to +y, 4 5 6 lower flange"//faces, &
+      "is a tee: height H along z, flange B, T above, web TW. Points: 1 2 3 flange from -y to "// &
+      "+y, 4 tip of the web"//faces, &
+      "is an angle: upright leg H, T at the left, lower leg B, T2 towards +y. Points: 1 upper "// &
+      "tip, 2 corner, 3 tip of the lower leg"//faces, &
+      "is a zed: height H along z, web TW, upper flange B, T towards -y, lower flange B2, T2 "// &
+      "towards +y, lips LIP turned inwards. Points as of C"//faces, &
+      "is a hat: height H along z, top B, brims C at both sides, T thick. Points 1 to 6 along "// &
+      "the midline from -y to +y"//faces//"; C counts from the inner face of the web", &
+      "is a solid rectangle, H along z, B along y. Points: its corners from +y, +z, "// &
+      "counter-clockwise"//shear, &
+      "is a rectangular box: H, webs TW along z, B, flanges T along y. Points: its corners "// &
+      "from +y, +z, counter-clockwise"//faces//shear, &
+      "is a solid circle of diameter D. Points: +y, +z, -y, -z on its face"//shear, &
+      "is a round tube of diameter D. Points: +y, +z, -y, -z on its face"//faces//shear]
+    character(len=*), parameter :: example(size(shape_rules)) = [character(len=80) :: &
+      "C H 30 B 10 T 1.6 TW 1|SECTION lipped C H 20 B 7.5 T 0.2 TW 0.2 LIP 2", &
+      "I H 30 B 15 T 1.07 TW 0.71|SECTION girder I H 80 B 30 T 2 TW 1 B2 20 T2 1.5", &
+      "T H 10 B 10 T 1 TW 0.8", "L H 10 B 8 T 1", "Z H 20 B 7 T 0.2 TW 0.2 LIP 1.5", &
+      "HAT H 5 B 8 T 0.15 C 2.5", "RECT H 20 B 10", "BOX H 20 B 10 T 0.8 TW 0.5", "CIRC D 5", &
+      "TUBE D 10 T 0.5"]
+    integer :: i
+
+    do i = 1, size(table)
+      associate (rule => shape_rules(i))
+        table(i) = keyword_t("SECTION", "model", "name:word "//trim(rule%name), &
+                             shape_options(rule), trim(help(i)), "SECTION s "//example(i), "", &
+                             read_shape)
+      end associate
+    end do
+  end function shape_keywords
+
+  !> Sections drawn point by point.
+  function drawing_keywords() result(table)
+    type(keyword_t), allocatable :: table(:)
+    character(len=*), parameter :: angle = "SECTION angle PLATES|POINT 1 0 8|POINT 2 0 0|"// &
+      "POINT 3 5 0|PLATE 1 2 0.6|PLATE 2 3 0.8"
+
+    table = [ &
+      keyword_t("SECTION", "model", "name:word PLATES", "", &
+        "is drawn by the POINT and PLATE cards behind it: any open, tree-shaped midline of "// &
+        "straight walls. Centroid and principal axes are found; AT counts from the drawing's "// &
+        "origin", angle, "", read_plates), &
+      keyword_t("POINT", "model", "n:id y:L z:L", "", &
+        "is a point of the drawing of the last SECTION name PLATES", angle, "", read_point), &
+      keyword_t("PLATE", "model", "i:id j:count t:L", "", &
+        "is a wall of thickness t between points i and j of the last SECTION name PLATES; a "// &
+        "range as i repeats the card", &
+        "SECTION arc PLATES|POINT 1:9 {5*sin((i-5)*pi/10)} {5*cos((i-5)*pi/10)}|"// &
+        "PLATE 1:8 {i+1} 0.2", "", read_plate)]
+  end function drawing_keywords
 
   !> Elements, their modes, groups and markers.
   function element_keywords() result(table)
@@ -181,12 +249,21 @@ contains
         "CONTROL | LOAD | ARC | DISPLACEMENT node:nodes component:component value:1 | "// &
         "INITIAL factor:1 | MAXSTEPS n:count=200 | "// &
         "STOP node:nodes component:component value:1 | TOL tolerance:1=1e-7 | "// &
-        "MAXITER n:count=30 | STABILITY kind:OFF/ON/REQUIRED=OFF | NAME name:word", &
+        "MAXITER n:count=30 | STABILITY kind:OFF/ON/REQUIRED=OFF | NAME name:word | "// &
+        "BRANCH switch:OFF/ON=OFF", &
         "ramps the loads given since the last analysis. CONTROL LOAD (default): equal steps of "// &
         "the load factor to TO; CONTROL DISPLACEMENT: equal steps of a displacement of a node or "// &
         "marker to a value; CONTROL ARC: along the path, beyond limit points, to TO or STOP. "// &
-        "STABILITY counts unstable modes and locates critical points", &
+        "STABILITY counts unstable modes and locates critical points, BRANCH ON switches to the "// &
+        "secondary branch at the first bifurcation", &
         "STATIC STEPS 12 NAME lift", "mode 10", read_static), &
+      keyword_t("BUCKLING", "analysis", "", "MODES n:count=10 | NAME name:word", &
+        "finds the multipliers of the loads given since the last STATIC, or of those it applied,"// &
+        " at which the state becomes unstable: n nearest zero of each sign", &
+        "XF 2 -1 0 0|BUCKLING MODES 2", "mode 8", read_buckling), &
+      keyword_t("EIGEN", "analysis", "", "MODES n:count=10 | NAME name:word", &
+        "finds the n lowest natural frequencies about the present state", &
+        "EIGEN MODES 6", "mode 7", read_eigen), &
       keyword_t("ITERSTEP", "analysis", &
         "iterations:count n:count? tolerance:1? -:text? -:text? m:count?", "", &
         "sets the defaults of STATIC: iterations and tolerance, m steps for the XF loads and n "// &

@@ -10,11 +10,13 @@ module deck_load_cards
   use deck_model_cards, only: define_name
   use deck_element_cards, only: add_record, add_item
   use deck_targets, only: read_control, read_target
-  use model_data, only: analysis_t, control_displacement, control_arc
+  use model_data, only: analysis_t, control_displacement, control_arc, stability_on, &
+                        analysis_buckling, analysis_eigen
   implicit none
   private
 
-  public :: read_fix, read_marker, read_xf, read_delxf, read_gravity, read_static, read_iterstep
+  public :: read_fix, read_marker, read_xf, read_delxf, read_gravity, read_static, read_iterstep, &
+            read_buckling, read_eigen
 
   integer, parameter :: most_steps = 1000000
 
@@ -195,6 +197,8 @@ contains
         analysis%name = card%word(option(13) + 1)
         call check_name(card, option(13) + 1, k, analysis%name, draft)
       end if
+      if (option(14) > 0) analysis%branch = card%whole(option(14) + 1) == 2
+      if (analysis%branch) analysis%stability = max(analysis%stability, stability_on)
       call check_arc_options(card, analysis, draft)
     end associate
     draft%model%analysis(k) = analysis
@@ -207,7 +211,8 @@ contains
     type(draft_t), intent(inout) :: draft
     integer :: i
 
-    do i = 7, 9
+    do i = 7, 14
+      if (all([7, 8, 9, 14] /= i)) cycle
       if (card%option(i) == 0 .or. analysis%control == control_arc) cycle
       call draft%report%add_error(card%place(card%option(i)), card%word(card%option(i))// &
                                   " belongs to CONTROL ARC")
@@ -218,6 +223,50 @@ contains
       call draft%report%add_error(card%place(card%option(2)), &
                                   "the value of CONTROL DISPLACEMENT replaces TO")
   end subroutine check_arc_options
+
+  !> BUCKLING [MODES n] [NAME name]
+  subroutine read_buckling(card, draft)
+    type(card_t), intent(in) :: card
+    type(draft_t), intent(inout) :: draft
+
+    call read_linearized(card, draft, analysis_buckling)
+  end subroutine read_buckling
+
+  !> EIGEN [MODES n] [NAME name]
+  subroutine read_eigen(card, draft)
+    type(card_t), intent(in) :: card
+    type(draft_t), intent(inout) :: draft
+
+    call read_linearized(card, draft, analysis_eigen)
+  end subroutine read_eigen
+
+  subroutine read_linearized(card, draft, kind)
+    type(card_t), intent(in) :: card
+    type(draft_t), intent(inout) :: draft
+    integer, intent(in) :: kind
+    type(analysis_t) :: analysis
+    integer :: k
+
+    k = draft%analyses + 1
+    draft%analyses = k
+    draft%block = draft%block + 1
+    call grow(draft%model%analysis, k)
+    call grow(draft%analysis_steps, k)
+    draft%analysis_steps(k) = 1
+    analysis%kind = kind
+    associate (option => card%option)
+      analysis%place = card%place(1)
+      if (option(1) > 0) then
+        analysis%modes = card%whole(option(1) + 1)
+        call check_count(card, option(1) + 1, most_steps, draft)
+      end if
+      if (option(2) > 0) then
+        analysis%name = card%word(option(2) + 1)
+        call check_name(card, option(2) + 1, k, analysis%name, draft)
+      end if
+    end associate
+    draft%model%analysis(k) = analysis
+  end subroutine read_linearized
 
   !> A result group's name must be a plain word, once.
   subroutine check_name(card, w, k, name, draft)

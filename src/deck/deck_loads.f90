@@ -3,7 +3,7 @@ module deck_loads
   use kinds, only: wp
   use text, only: to_text, plural
   use diagnostics, only: place_t
-  use model_data, only: load_t, marker_t, analysis_t, pattern_t
+  use model_data, only: load_t, marker_t, analysis_t, pattern_t, analysis_static, analysis_buckling
   use deck_draft, only: draft_t, record_t, record_load, record_gravity
   use deck_growth, only: grow
   use deck_points, only: neighbours_t, resolve_point
@@ -23,7 +23,7 @@ contains
     type(draft_t), intent(inout) :: draft
     integer, allocatable, intent(out) :: pattern(:, :)
     type(analysis_t), allocatable :: analysis(:)
-    integer :: r, block, n, kind, patterns
+    integer :: r, block, n, kind, patterns, pending(2)
 
     allocate (pattern(2, draft%block), analysis(2*draft%block))
     pattern = 0
@@ -34,6 +34,7 @@ contains
       end associate
     end do
     patterns = 0
+    pending = 0
     n = 0
     do block = 1, draft%block
       if (block > draft%analyses .and. draft%analyses > 0) then
@@ -43,15 +44,43 @@ contains
       end if
       do kind = base, additional
         if (pattern(kind, block) == 0) cycle
+        if (pending(kind) > 0) then
+          call check_open(draft, block)
+          pattern(kind, block) = pending(kind)
+          cycle
+        end if
         patterns = patterns + 1
         pattern(kind, block) = patterns
       end do
-      call add_analyses(draft, pattern(:, block), block, patterns, analysis, n)
+      pending = max(pending, pattern(:, block))
+      call add_analyses(draft, pending, block, patterns, analysis, n)
+      if (analysis(n)%kind == analysis_static) pending = 0
+      if (all(pending > 0)) pending(base) = 0
     end do
     allocate (draft%model%pattern(patterns))
     draft%model%analysis = analysis(:n)
     if (draft%analyses == 0) call tell_implied(draft, pattern(:, 1))
   end subroutine set_analyses
+
+  !> Loads behind a BUCKLING or EIGEN belong to the pattern that STATIC has not yet applied;
+  !> BUCKLING took it as a whole.
+  subroutine check_open(draft, block)
+    type(draft_t), intent(inout) :: draft
+    integer, intent(in) :: block
+    integer :: r
+
+    if (draft%model%analysis(block - 1)%kind /= analysis_buckling) return
+    do r = 1, draft%records
+      associate (record => draft%record(r))
+        if (record%block /= block) cycle
+        if (record%kind /= record_load .and. record%kind /= record_gravity) cycle
+        call draft%report%add_error(record%place, "this load comes behind BUCKLING, which"// &
+          " scales the loads before it as a whole", "give all loads before BUCKLING, or apply"// &
+          " the first ones by STATIC")
+        return
+      end associate
+    end do
+  end subroutine check_open
 
   !> The analysis that ends a block, and before it an implied STATIC where DELXF follows XF.
   subroutine add_analyses(draft, pattern, block, patterns, analysis, n)

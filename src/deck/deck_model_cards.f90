@@ -1,9 +1,8 @@
-!> Cards that name things: nodes, materials, sections, functions, groups, settings.
+!> Cards that name things: nodes, materials, groups, settings.
 module deck_model_cards
   use kinds, only: wp
   use text, only: quoted, to_text, upper
   use diagnostics, only: place_t, report_t
-  use section_data, only: section_constants_t
   use deck_card, only: card_t
   use deck_draft, only: draft_t, selection_t, group_t
   use deck_growth, only: grow
@@ -15,7 +14,7 @@ module deck_model_cards
   private
 
   public :: read_title, read_set, read_include, read_nothing, read_visualization, read_outlevel
-  public :: read_node, read_material, read_constants, read_group_nodes, read_group_elements
+  public :: read_node, read_material, read_group_nodes, read_group_elements
   public :: node_number, define_name, add_selection
 
 contains
@@ -191,67 +190,6 @@ contains
       if (card%option(5) > 0) material%damping = card%number(card%option(5) + 1)
     end associate
   end subroutine read_material
-
-  !> SECTION name CONSTANTS ...; the options stand in the order of the table.
-  subroutine read_constants(card, draft)
-    type(card_t), intent(in) :: card
-    type(draft_t), intent(inout) :: draft
-    type(section_constants_t) :: c
-    real(wp) :: value(17)
-    integer :: k, i
-
-    value = 0.0_wp
-    do i = 1, size(value)
-      if (card%option(i) > 0) value(i) = card%number(card%option(i) + 1)
-    end do
-    c%a = value(1)
-    c%iy = value(2)
-    c%iz = value(3)
-    c%it = value(4)
-    c%iw = value(5)
-    c%ys = value(6)
-    c%zs = value(7)
-    c%by = value(14)
-    c%bz = value(15)
-    c%bw = value(16)
-    c%ir = value(17)
-    if (any(card%option(8:13) > 0)) call set_shear(card, draft, value(8:13), c)
-    call define_name(card, 2, draft%report, draft%sections, .true., k)
-    if (k == 0) return
-    call grow(draft%model%section, k)
-    draft%model%section(k)%name = card%word(2)
-    draft%model%section(k)%constants = c
-    draft%model%section(k)%place = card%place(2)
-  end subroutine read_constants
-
-  !> Shear rigidities: DY and DZ go together, and DW where there is warping.
-  subroutine set_shear(card, draft, value, c)
-    type(card_t), intent(in) :: card
-    type(draft_t), intent(inout) :: draft
-    real(wp), intent(in) :: value(6)   !< DY DZ DW DYZ DYW DZW
-    type(section_constants_t), intent(inout) :: c
-    integer :: i
-
-    do i = 1, 3
-      c%d(i, i) = value(i)
-    end do
-    c%d(1, 2) = value(4)
-    c%d(1, 3) = value(5)
-    c%d(2, 3) = value(6)
-    c%d(2, 1) = c%d(1, 2)
-    c%d(3, 1) = c%d(1, 3)
-    c%d(3, 2) = c%d(2, 3)
-    c%shear_given = .false.
-    if (any(card%option(8:9) == 0)) then
-      call draft%report%add_error(card%place(1), "the shear rigidities DY and DZ go together")
-    else if (card%option(10) == 0 .and. (c%iw > 0.0_wp .or. any(card%option(12:13) > 0))) then
-      call draft%report%add_error(card%place(1), "a section with IW needs DW besides DY and DZ")
-    else
-      c%shear_given = .true.
-      c%shear_rigid(3) = card%option(10) == 0
-      if (c%shear_rigid(3)) c%d(3, 3) = 1.0_wp
-    end if
-  end subroutine set_shear
 
   !> Number of a name that a card defines; 0 and an error if it was defined before.
   subroutine define_name(card, w, report, registry, usable, number)

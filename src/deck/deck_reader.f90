@@ -33,31 +33,34 @@ contains
 
   !> Read a deck. `report` has all that is to be said of it; the model is sound if it has no
   !> errors. `error` is for a deck file that cannot be read at all.
-  subroutine read_deck(path, overrides, model, report, error)
+  subroutine read_deck(path, overrides, model, report, error, parts)
     character(len=*), intent(in) :: path
     type(setting_t), intent(in) :: overrides(:)  !< of -D
     type(model_t), intent(out) :: model
     type(report_t), intent(out) :: report
     type(error_t), allocatable, intent(out) :: error
+    logical, intent(in), optional :: parts       !< of sections and materials: need not be complete
     character(len=:), allocatable :: text
 
     call load_text(path, text, error)
-    if (.not. allocated(error)) call read_deck_text(path, text, overrides, model, report)
+    if (.not. allocated(error)) call read_deck_text(path, text, overrides, model, report, parts)
   end subroutine read_deck
 
   !> Read a deck from memory; `path` is its name in messages and where includes count from.
-  subroutine read_deck_text(path, text, overrides, model, report)
+  subroutine read_deck_text(path, text, overrides, model, report, parts)
     character(len=*), intent(in) :: path
     character(len=:), allocatable, intent(inout) :: text   !< moved into the report
     type(setting_t), intent(in) :: overrides(:)
     type(model_t), intent(out) :: model
     type(report_t), intent(out) :: report
+    logical, intent(in), optional :: parts                 !< see `read_deck`
     type(draft_t) :: draft
     type(table_t) :: table
     type(string_t) :: open_files(deepest)
     integer :: file
 
     call new_draft(overrides, draft)
+    if (present(parts)) draft%complete = .not. parts
     call compile(table)
     call draft%report%add_file(path, text, file)
     open_files(1)%s = beside("", path)

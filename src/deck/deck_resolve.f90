@@ -6,6 +6,7 @@ module deck_resolve
   use model_check, only: check_parts, check_members, check_use
   use deck_draft, only: draft_t
   use deck_growth, only: grow
+  use deck_sections, only: settle_sections
   use deck_members, only: expand_beams, set_modes
   use deck_supports, only: set_supports
   use deck_points, only: neighbours_t, find_neighbours, set_markers
@@ -27,6 +28,7 @@ contains
     call check_overrides(draft)
     call check_names(draft)
     call fit_registries(draft)
+    call settle_sections(draft)
     call expand_beams(draft)
     call check_positions(draft)
     call fit_arrays(draft)
@@ -41,7 +43,7 @@ contains
     call set_targets(draft)
     call set_loads(draft, neighbours, pattern)
     draft%model%point = draft%model%point(:draft%points)
-    if (draft%report%errors() == 0) call check_use(draft%model, draft%report)
+    if (draft%report%errors() == 0 .and. draft%complete) call check_use(draft%model, draft%report)
     call keep_settings(draft)
   end subroutine resolve_draft
 

@@ -17,7 +17,9 @@ module deck_section_cards
   private
 
   public :: read_constants, read_shape, read_plates, read_point, read_plate
-  public :: shape_sizes, shape_options
+  public :: shape_options, open_drawing
+
+  integer, parameter :: most_sizes = 7   !< of a shape
 
 contains
 
@@ -52,6 +54,7 @@ contains
     c%bw = value(16)
     c%ir = value(17)
     call settle_shear(c)
+    draft%drawn = 0
     call define_name(card, 2, draft%report, draft%sections, .true., k)
     if (k == 0) return
     call grow(draft%model%section, k)
@@ -82,8 +85,8 @@ contains
     end do
     if (phrase /= "") phrase = phrase//" = 0"
     do i = 1, 3
-      if (c%shear_rigid(i) .and. (i < 3 .or. c%iw > 0.0_wp)) &
-        rigid = joined(rigid, ", ", "D"//axes(i))
+      if (.not. c%shear_rigid(i) .or. (i == 3 .and. .not. c%iw > 0.0_wp)) cycle
+      rigid = joined(rigid, ", ", "D"//axes(i))
     end do
     if (rigid /= "") phrase = joined(phrase, "; ", "rigid in shear: no "//rigid)
   end function constant_defaults
@@ -96,26 +99,30 @@ contains
     type(section_constants_t) :: constants
     type(section_geometry_t) :: geometry
     type(error_t), allocatable :: error
-    character(len=3), allocatable :: name(:)
+    character(len=3) :: name(most_sizes)
     character(len=:), allocatable :: shape
     logical :: known, sound
-    integer :: i, k
+    integer :: i, k, n
 
     shape = upper(card%word(3))
     name = shape_sizes(shape_rule(shape))
-    do i = 1, size(name)
-      if (card%option(i) > 0) &
-        call set_dimension(sizes, trim(name(i)), card%number(card%option(i) + 1), known)
+    n = count(name /= "")
+    do i = 1, n
+      if (card%option(i) == 0) cycle
+      call set_dimension(sizes, trim(name(i)), card%number(card%option(i) + 1), known)
     end do
-    sizes%midline = card%option(i + 1) > 0
-    sound = .not. (sizes%midline .and. card%option(i) > 0)
-    if (.not. sound) call draft%report%add_error(card%place(card%option(i + 1)), &
-                                                 "OUTER and MIDLINE are both given")
+    sizes%midline = card%option(n + 2) > 0
+    sound = .not. (sizes%midline .and. card%option(n + 1) > 0)
+    if (.not. sound) then
+      call draft%report%add_error(card%place(card%option(n + 2)), &
+                                  "OUTER and MIDLINE are both given")
+    end if
     call shape_section(shape, sizes, standard_poisson, constants, geometry, error)
     if (allocated(error)) then
-      call complain_about_size(card, draft, name, error%message)
+      call complain_about_size(card, draft, name(:n), error%message)
       sound = .false.
     end if
+    draft%drawn = 0
     call define_name(card, 2, draft%report, draft%sections, sound, k)
     if (k == 0) return
     call grow(draft%model%section, k)
@@ -126,7 +133,7 @@ contains
       section%sizes = sizes
       section%constants = constants
       section%geometry = geometry
-      section%defaults = shape_defaults(card, name)
+      section%defaults = shape_defaults(card, name(:n))
       section%place = card%place(2)
     end associate
   end subroutine read_shape
@@ -161,28 +168,30 @@ contains
       if (name(i) == "T2") phrase = joined(phrase, ", ", "T2 = T")
       if (name(i) == "LIP") phrase = joined(phrase, ", ", "no LIP")
     end do
-    if (any(name == "T") .and. all(card%option(n + 1:n + 2) == 0)) &
-      phrase = joined(phrase, ", ", "OUTER sizes")
+    if (.not. any(name == "T") .or. any(card%option(n + 1:n + 2) > 0)) return
+    phrase = joined(phrase, ", ", "OUTER sizes")
   end function shape_defaults
 
-  !> The sizes of a shape, required ones first: the options of its row in the keyword table.
+  !> The sizes of a shape, required ones first, then blanks: the options of its row in the keyword
+  !> table.
   pure function shape_sizes(rule) result(name)
     type(shape_rule_t), intent(in) :: rule
-    character(len=3), allocatable :: name(:)
+    character(len=3) :: name(most_sizes), all(most_sizes)
 
-    name = pack([rule%required, rule%optional], [rule%required, rule%optional] /= "")
+    all = [rule%required, rule%optional]
+    name = pack(all, all /= "", spread("   ", 1, most_sizes))
   end function shape_sizes
 
   !> The options of a shape in the words of the keyword table.
   pure function shape_options(rule) result(phrase)
     type(shape_rule_t), intent(in) :: rule
     character(len=:), allocatable :: phrase
-    character(len=3), allocatable :: name(:)
+    character(len=3) :: name(most_sizes)
     integer :: i
 
     phrase = ""
     name = shape_sizes(rule)
-    do i = 1, size(name)
+    do i = 1, count(name /= "")
       phrase = joined(phrase, " | ", trim(name(i))//" "//lower(trim(name(i)))//":L")
       if (any(rule%required == name(i))) phrase = phrase//"!"
     end do
@@ -207,9 +216,7 @@ contains
     integer :: k
 
     call define_name(card, 2, draft%report, draft%sections, .true., k)
-    draft%drawings = draft%drawings + 1
-    call grow_drawings(draft%drawing, draft%drawings)
-    draft%drawing(draft%drawings)%section = k
+    call open_drawing(draft, k)
     if (k == 0) return
     call grow(draft%model%section, k)
     draft%model%section(k)%name = card%word(2)
@@ -218,6 +225,17 @@ contains
     draft%model%section(k)%place = card%place(2)
   end subroutine read_plates
 
+  !> Let POINT and PLATE cards belong to a section from now on; 0: to none that matters.
+  subroutine open_drawing(draft, section)
+    type(draft_t), intent(inout) :: draft
+    integer, intent(in) :: section
+
+    draft%drawings = draft%drawings + 1
+    draft%drawn = draft%drawings
+    call grow_drawings(draft%drawing, draft%drawings)
+    draft%drawing(draft%drawings)%section = section
+  end subroutine open_drawing
+
   !> POINT n y z
   subroutine read_point(card, draft)
     type(card_t), intent(in) :: card
@@ -225,7 +243,7 @@ contains
     integer :: i
 
     if (.not. has_drawing(card, draft)) return
-    associate (drawing => draft%drawing(draft%drawings))
+    associate (drawing => draft%drawing(draft%drawn))
       do i = 1, drawing%points
         if (drawing%point(i)%number /= card%whole(2)) cycle
         call draft%report%add_error(card%place(2), "this section has a point "// &
@@ -244,7 +262,7 @@ contains
     type(draft_t), intent(inout) :: draft
 
     if (.not. has_drawing(card, draft)) return
-    associate (drawing => draft%drawing(draft%drawings))
+    associate (drawing => draft%drawing(draft%drawn))
       if (.not. card%number(4) > 0.0_wp) then
         call draft%report%add_error(card%place(4), "the thickness of a plate must be positive, "// &
                                     "not "//to_text(card%number(4)))
@@ -261,7 +279,7 @@ contains
     type(card_t), intent(in) :: card
     type(draft_t), intent(inout) :: draft
 
-    has_drawing = draft%drawings > 0
+    has_drawing = draft%drawn > 0
     if (has_drawing .or. draft%sections%incomplete) return
     call draft%report%add_error(card%place(1), upper(card%word(1))//" belongs behind a card "// &
                                 "SECTION name PLATES")

@@ -93,7 +93,7 @@ contains
     gamma = shears_t(strain(1, :), strain(2, :), strain(3, :))
   end subroutine condensed_stiffness
 
-  !> (1 + fk)^-1 fk g, the shear strains in equilibrium; fk is the product of compliance and stiffness.
+  !> (1 + fk)^-1 fk g, the shear strains in equilibrium; fk: compliance times stiffness.
   pure function solve3(fk, g) result(x)
     real(wp), intent(in) :: fk(3, 3), g(3, 8)
     real(wp) :: x(3, 8), a(3, 11)

@@ -12,7 +12,7 @@ module beamw_fields
   type :: fields_t
     real(wp), dimension(8) :: vs = 0, ws = 0      !< slopes of the shear-centre line
     real(wp), dimension(8) :: vss = 0, wss = 0    !< their x-derivatives [1/L]
-    real(wp), dimension(8) :: phi = 0, dphi = 0   !< twist relative to the mid-twist frame, its derivative
+    real(wp), dimension(8) :: phi = 0, dphi = 0   !< twist in the mid-twist frame, its rate
   end type fields_t
 
   !> Shear strains, constant along the element, as linear forms in the eight strains.
@@ -23,8 +23,9 @@ module beamw_fields
   !> Four Gauss points on (0, 1) integrate polynomials of degree 7 exactly.
   real(wp), parameter :: inner = sqrt((3 - 2*sqrt(1.2_wp))/7), outer = sqrt((3 + 2*sqrt(1.2_wp))/7)
   real(wp), parameter, public :: gauss_point(4) = (1 + [-outer, -inner, inner, outer])/2
-  real(wp), parameter :: inner_weight = (18 + sqrt(30.0_wp))/72, outer_weight = (18 - sqrt(30.0_wp))/72
-  real(wp), parameter, public :: gauss_weight(4) = [outer_weight, inner_weight, inner_weight, outer_weight]
+  real(wp), parameter :: root30 = sqrt(30.0_wp)
+  real(wp), parameter, public :: gauss_weight(4) = &
+    [18 - root30, 18 + root30, 18 + root30, 18 - root30]/72
 
 contains
 

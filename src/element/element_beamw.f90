@@ -98,8 +98,9 @@ contains
     call beamw_geometric(self%constants, k, stress, weight, g)
     call expand_columns(b, jacobian(:, 1:14))
     call expand_square(g, geometric(1:14, 1:14))
-    if (size(self%released) > 0) &
+    if (size(self%released) > 0) then
       call add_releases(self%constants, self%released, k, stress, weight, jacobian, geometric)
+    end if
   end subroutine evaluate
 
   pure subroutine law(self, stiffness)

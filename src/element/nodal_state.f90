@@ -52,8 +52,9 @@ contains
     do i = 1, size(self%warping)
       k = node_coordinates*(i - 1)
       self%displacement(:, i) = self%displacement(:, i) + increment(k + 1:k + 3)
-      if (any(abs(increment(k + 4:k + 6)) > 0)) &
+      if (any(abs(increment(k + 4:k + 6)) > 0)) then
         self%euler(:, i) = turned(self%euler(:, i), increment(k + 4:k + 6))
+      end if
       self%warping(i) = self%warping(i) + increment(k + 7)
     end do
     self%release = self%release + increment(node_coordinates*size(self%warping) + 1:)

@@ -2,16 +2,19 @@
 !> those with the largest theta of either sign. A is positive definite where C x = 0 and is
 !> factorized, with C, by the caller; Q is any symmetric matrix, also a singular one.
 !>
-!> With few coordinates in Q they are reduced to a dense matrix: A^-1 on these coordinates, G, is
-!> factorized with pivoting, G = L L', and L'Q L has the same theta. With many, Lanczos (ARPACK) on
-!> A^-1 Q in the inner product of A.
+!> With few coordinates in Q they are reduced to a dense matrix: A^-1 on these coordinates is
+!> factorized with pivoting, A^-1 = L L', and L'Q L has the same theta. With few degrees of freedom
+!> likewise, L with L'A L = 1 and C L = 0. With many, Lanczos (ARPACK) on A^-1 Q in the inner
+!> product
+!> of A.
 module linalg_eigen
   use kinds, only: wp
   use errors, only: error_t, fail, exit_solve
   use text, only: to_text
   use linalg_solver, only: solver_t
+  use linalg_symmetric, only: entries_t, compress, multiply
+  use linalg_lanczos, only: lanczos, apply, start_vector
   use lapack_interfaces, only: dsyev
-  use arpack_interfaces, only: dsaupd, dseupd
   implicit none
   private
 
@@ -44,10 +47,6 @@ module linalg_eigen
   !> What a pivot of the scaled inverse is in place of zero.
   real(wp), parameter :: zero_pivot = 1.0e-13_wp
 
-  !> Residual of a Lanczos vector, relative to its theta; the theta is good to the square.
-  real(wp), parameter :: lanczos_tolerance = 1.0e-10_wp
-  integer, parameter :: most_restarts = 300
-
 contains
 
   !> Find up to `wanted` pairs with positive and with negative theta.
@@ -58,20 +57,30 @@ contains
     type(pairs_t), intent(out) :: pairs
     type(error_t), allocatable, intent(out) :: error
     integer, allocatable :: active(:)
+    real(wp), allocatable :: factor(:, :)
     real(wp) :: scale
+    integer :: k
 
     allocate (pairs%theta(sum(wanted)), pairs%vector(pencil%equations, sum(wanted)))
     active = coordinates_of_q(pencil)
     if (size(active) <= pencil%dense_limit) then
-      call find_dense(solver, pencil, active, wanted, pairs, error)
+      call factor_inverse(solver, pencil, active, factor, error)
+    else if (2*pencil%coordinates - pencil%equations <= pencil%dense_limit) then
+      active = [(k, k=1, pencil%coordinates)]
+      call null_basis(solver, pencil, factor, error)
+    end if
+    if (allocated(error)) return
+    if (allocated(factor)) then
+      call find_dense(solver, pencil, active, factor, wanted, pairs, error)
       return
     end if
     scale = 0
     if (.not. pencil%semidefinite) call estimate_theta(solver, pencil, scale, error)
     if (allocated(error)) return
     if (wanted(1) > 0) call find_sparse(solver, pencil, 1, wanted(1), scale, pairs, error)
-    if (wanted(2) > 0 .and. .not. allocated(error)) &
+    if (wanted(2) > 0 .and. .not. allocated(error)) then
       call find_sparse(solver, pencil, 2, wanted(2), scale, pairs, error)
+    end if
   end subroutine find_pairs
 
   !> Coordinates with entries in Q.
@@ -90,49 +99,6 @@ contains
     active = pack([(k, k=1, pencil%coordinates)], used(:pencil%coordinates))
   end function coordinates_of_q
 
-  !> y = B x with a symmetric matrix given by its lower triangle.
-  pure subroutine multiply(pencil, b, x, y)
-    type(pencil_t), intent(in) :: pencil
-    real(wp), intent(in), contiguous :: b(:)
-    real(wp), intent(in) :: x(pencil%coordinates)
-    real(wp), intent(out) :: y(pencil%coordinates)
-    integer :: k
-
-    y = 0
-    do k = 1, size(b)
-      associate (i => pencil%row(k), j => pencil%column(k))
-        if (i > pencil%coordinates) cycle
-        y(i) = y(i) + b(k)*x(j)
-        if (i /= j) y(j) = y(j) + b(k)*x(i)
-      end associate
-    end do
-  end subroutine multiply
-
-  !> y = A^-1 Q x, multipliers behind.
-  subroutine apply(solver, pencil, x, y, error)
-    type(solver_t), intent(inout) :: solver
-    type(pencil_t), intent(in) :: pencil
-    real(wp), intent(in) :: x(pencil%coordinates)
-    real(wp), intent(out) :: y(pencil%equations)
-    type(error_t), allocatable, intent(out) :: error
-
-    call multiply(pencil, pencil%q, x, y(:pencil%coordinates))
-    y(pencil%coordinates + 1:) = 0
-    call solver%solve(y, error)
-  end subroutine apply
-
-  !> A fixed vector without symmetries.
-  pure function start_vector(n) result(x)
-    integer, intent(in) :: n
-    real(wp) :: x(n)
-    real(wp), parameter :: golden = 0.6180339887498949_wp
-    integer :: k
-
-    do k = 1, n
-      x(k) = modulo(k*golden, 1.0_wp) + 0.5_wp*modulo(k*golden**2*0.7_wp, 1.0_wp) - 0.7_wp
-    end do
-  end function start_vector
-
   !> A lower bound of the largest |theta|, usually near to it, by power iteration; 0: Q is zero.
   !> If Q is semidefinite, A need not be definite.
   subroutine estimate_theta(solver, pencil, theta, error)
@@ -141,20 +107,20 @@ contains
     real(wp), intent(out) :: theta
     type(error_t), allocatable, intent(out) :: error
     integer, parameter :: powers = 8
+    type(entries_t) :: q, metric
     real(wp) :: x(pencil%equations), y(pencil%coordinates), size_x
     integer :: i
 
     theta = 0
-    x(:pencil%coordinates) = start_vector(pencil%coordinates)
+    call compress(pencil%row, pencil%column, pencil%q, pencil%coordinates, q)
+    call compress(pencil%row, pencil%column, pencil%a, pencil%coordinates, metric)
+    if (pencil%semidefinite) metric = q
+    x(:pencil%coordinates) = start_vector(pencil%coordinates, 1)
     do i = 0, powers
       y = x(:pencil%coordinates)
-      call apply(solver, pencil, y, x, error)
+      call apply(solver, q, y, x, error)
       if (allocated(error)) return
-      if (pencil%semidefinite) then
-        call multiply(pencil, pencil%q, x(:pencil%coordinates), y)
-      else
-        call multiply(pencil, pencil%a, x(:pencil%coordinates), y)
-      end if
+      call multiply(metric, x(:pencil%coordinates), y)
       size_x = sqrt(max(0.0_wp, dot_product(x(:pencil%coordinates), y)))
       if (i > 0) theta = size_x
       if (.not. size_x > 0) return
@@ -162,21 +128,26 @@ contains
     end do
   end subroutine estimate_theta
 
-  !> All pairs of the dense reduction, of which the wanted ones are kept.
-  subroutine find_dense(solver, pencil, active, wanted, pairs, error)
+  !> All pairs of L'Q L, of which the wanted ones are kept.
+  subroutine find_dense(solver, pencil, active, factor, wanted, pairs, error)
     type(solver_t), intent(inout) :: solver
     type(pencil_t), intent(in) :: pencil
     integer, intent(in) :: active(:), wanted(2)
+    real(wp), intent(in), contiguous :: factor(:, :)   !< L, (active, rank)
     type(pairs_t), intent(inout) :: pairs
     type(error_t), allocatable, intent(out) :: error
-    real(wp), allocatable :: factor(:, :), reduced(:, :), theta(:), work(:)
+    real(wp), allocatable :: reduced(:, :), theta(:), work(:)
+    type(entries_t) :: q
     real(wp) :: x(pencil%coordinates)
+    logical :: known(pencil%coordinates)
     integer :: n, info, k
 
-    call factor_inverse(solver, pencil, active, factor, error)
+    known = .false.
+    known(active) = .true.
+    call compress(pencil%row, pencil%column, pencil%q, pencil%coordinates, q)
     n = size(factor, 2)
-    if (allocated(error) .or. n == 0) return
-    reduced = reduced_matrix(pencil, active, factor)
+    if (n == 0) return
+    call reduce(q, pencil%coordinates, active, factor, reduced)
     allocate (theta(n), work(max(1, 34*n)))
     call dsyev("V", "L", n, reduced, n, theta, work, size(work), info)
     if (info /= 0) then
@@ -201,7 +172,7 @@ contains
 
       x = 0
       x(active) = matmul(factor, reduced(:, k))
-      call keep_pair(solver, pencil, side, theta(k), x, pairs, error)
+      call keep_pair(solver, q, side, theta(k), x, known, pairs, error)
     end subroutine keep
 
   end subroutine find_dense
@@ -240,6 +211,39 @@ contains
     end do
   end subroutine factor_inverse
 
+  !> Columns Z with Z'A Z = 1 that span all x with C x = 0, of which there are few: random ones,
+  !> taken
+  !> to the nearest x, and made orthogonal, twice. The factors of A are found again at the end.
+  subroutine null_basis(solver, pencil, basis, error)
+    type(solver_t), intent(inout) :: solver
+    type(pencil_t), intent(in) :: pencil
+    real(wp), allocatable, intent(out) :: basis(:, :)
+    type(error_t), allocatable, intent(out) :: error
+    type(entries_t) :: a
+    real(wp) :: projection(size(pencil%a)), x(pencil%equations), y(pencil%coordinates)
+    integer :: n, j, pass
+
+    n = pencil%coordinates
+    allocate (basis(n, 2*n - pencil%equations))
+    call compress(pencil%row, pencil%column, pencil%a, n, a)
+    projection = merge(pencil%a, 0.0_wp, pencil%row > n)
+    where (pencil%row == pencil%column .and. pencil%row <= n) projection = 1
+    call solver%factorize(projection, error)
+    do j = 1, size(basis, 2)
+      if (allocated(error)) return
+      x(:n) = start_vector(n, j)
+      x(n + 1:) = 0
+      call solver%solve(x, error)
+      do pass = 1, 2
+        call multiply(a, x(:n), y)
+        x(:n) = x(:n) - matmul(basis(:, :j - 1), matmul(y, basis(:, :j - 1)))
+      end do
+      call multiply(a, x(:n), y)
+      basis(:, j) = x(:n)/sqrt(max(dot_product(x(:n), y), tiny(1.0_wp)))
+    end do
+    if (.not. allocated(error)) call solver%factorize(pencil%a, error)
+  end subroutine null_basis
+
   !> B = L L' with the columns of L in the order of falling pivots, down to round-off.
   pure subroutine pivoted_cholesky(b, l)
     real(wp), intent(in), contiguous :: b(:, :)
@@ -265,32 +269,32 @@ contains
   end subroutine pivoted_cholesky
 
   !> L'Q L.
-  pure function reduced_matrix(pencil, active, factor) result(t)
-    type(pencil_t), intent(in) :: pencil
-    integer, intent(in) :: active(:)
+  pure subroutine reduce(q, coordinates, active, factor, reduced)
+    type(entries_t), intent(in) :: q
+    integer, intent(in) :: coordinates, active(:)
     real(wp), intent(in), contiguous :: factor(:, :)
-    real(wp) :: t(size(factor, 2), size(factor, 2)), q(size(active), size(active))
-    integer :: place(pencil%equations), k
+    real(wp), allocatable, intent(out) :: reduced(:, :)
+    real(wp) :: x(coordinates), y(coordinates)
+    integer :: j
 
-    place = 0
-    place(active) = [(k, k=1, size(active))]
-    q = 0
-    do k = 1, size(pencil%q)
-      associate (i => place(pencil%row(k)), j => place(pencil%column(k)))
-        if (min(i, j) == 0) cycle
-        q(i, j) = pencil%q(k)
-        q(j, i) = pencil%q(k)
-      end associate
+    allocate (reduced(size(factor, 2), size(factor, 2)))
+    x = 0
+    do j = 1, size(factor, 2)
+      x(active) = factor(:, j)
+      call multiply(q, x, y)
+      reduced(:, j) = matmul(y(active), factor)
     end do
-    t = matmul(transpose(factor), matmul(q, factor))
-  end function reduced_matrix
+  end subroutine reduce
 
-  !> Add a pair; one more solution completes it, A^-1 Q x = theta x, and gives the multipliers.
-  subroutine keep_pair(solver, pencil, side, theta, x, pairs, error)
+  !> Add a pair whose vector is known on all coordinates or on those of Q: theta x = A^-1 Q x
+  !> gives the rest and the multipliers. What is known is kept: round-off of a solution has most of
+  !> the softest modes, and much of it for a stiff one.
+  subroutine keep_pair(solver, q, side, theta, x, known, pairs, error)
     type(solver_t), intent(inout) :: solver
-    type(pencil_t), intent(in) :: pencil
+    type(entries_t), intent(in) :: q
     integer, intent(in) :: side
-    real(wp), intent(in) :: theta, x(:)
+    real(wp), intent(in) :: theta, x(:)          !< x by coordinate
+    logical, intent(in) :: known(:)
     type(pairs_t), intent(inout) :: pairs
     type(error_t), allocatable, intent(out) :: error
     integer :: n
@@ -298,8 +302,13 @@ contains
     pairs%found(side) = pairs%found(side) + 1
     n = sum(pairs%found)
     pairs%theta(n) = theta
-    call apply(solver, pencil, x, pairs%vector(:, n), error)
-    pairs%vector(:, n) = pairs%vector(:, n)/theta
+    associate (vector => pairs%vector(:, n))
+      if (size(vector) > size(x) .or. .not. all(known)) then
+        call apply(solver, q, x, vector, error)
+        vector = vector/theta
+      end if
+      where (known) vector(:size(x)) = x
+    end associate
   end subroutine keep_pair
 
   !> Lanczos for one sign of theta, on +-A^-1 Q + scale: the shift keeps the many theta near zero
@@ -311,91 +320,26 @@ contains
     real(wp), intent(in) :: scale
     type(pairs_t), intent(inout) :: pairs
     type(error_t), allocatable, intent(out) :: error
+    type(entries_t) :: a, q
     real(wp), allocatable :: v(:, :), d(:)
     integer :: k, found, at(1)
     real(wp) :: sign_of, theta
 
+    call compress(pencil%row, pencil%column, pencil%a, pencil%coordinates, a)
+    call compress(pencil%row, pencil%column, pencil%q, pencil%coordinates, q)
     sign_of = merge(1.0_wp, -1.0_wp, side == 1)
-    call lanczos(solver, pencil, sign_of, scale, wanted, d, v, found, error)
+    call lanczos(solver, pencil%equations, pencil%coordinates, a, q, sign_of, scale, wanted, d, v, &
+                 found, error)
     if (allocated(error)) return
     do k = 1, found
       at = maxloc(d(:found))
       theta = sign_of*(d(at(1)) - scale)
       d(at(1)) = -huge(1.0_wp)
       if (sign_of*theta <= zero_theta*scale) exit
-      call keep_pair(solver, pencil, side, theta, v(:, at(1)), pairs, error)
+      call keep_pair(solver, q, side, theta, v(:, at(1)), spread(.true., 1, size(v, 1)), pairs, &
+                     error)
       if (allocated(error)) return
     end do
   end subroutine find_sparse
-
-  !> ARPACK's eigenvalues `d` and vectors of sign*A^-1 Q + scale, the largest, in no order.
-  subroutine lanczos(solver, pencil, sign_of, scale, wanted, d, v, found, error)
-    type(solver_t), intent(inout) :: solver
-    type(pencil_t), intent(in) :: pencil
-    real(wp), intent(in) :: sign_of, scale
-    integer, intent(in) :: wanted
-    real(wp), allocatable, intent(out) :: d(:), v(:, :)
-    integer, intent(out) :: found
-    type(error_t), allocatable, intent(out) :: error
-    real(wp), allocatable :: resid(:), workd(:), workl(:)
-    logical, allocatable :: select(:)
-    real(wp) :: y(pencil%equations)
-    integer :: n, ncv, ido, info, iparam(11), ipntr(11)
-
-    n = pencil%coordinates
-    ncv = min(n, max(2*wanted + 1, 20))
-    allocate (d(wanted), v(n, ncv), workd(3*n), workl(ncv*(ncv + 8)), select(ncv))
-    found = 0
-    call apply(solver, pencil, start_vector(n), y, error)
-    if (allocated(error)) return
-    resid = y(:n)
-    iparam = 0
-    iparam([1, 3, 7]) = [1, most_restarts, 3]
-    ipntr = 0
-    workd = 0
-    workl = 0
-    v = 0
-    ido = 0
-    info = 1
-    do
-      call dsaupd(ido, "G", n, "LA", wanted, lanczos_tolerance, resid, ncv, v, n, iparam, ipntr, &
-                  workd, workl, size(workl), info)
-      if (abs(ido) /= 1 .and. ido /= 2) exit
-      call answer(workd(ipntr(1):ipntr(1) + n - 1), workd(ipntr(2):ipntr(2) + n - 1))
-      if (allocated(error)) return
-    end do
-    if (info < 0 .or. info > 2) call fail(error, exit_solve, "dsaupd: info = "//to_text(info))
-    found = iparam(5)
-    if (allocated(error) .or. found == 0) return
-    call dseupd(.true., "A", select, d, v, n, 0.0_wp, "G", n, "LA", wanted, lanczos_tolerance, &
-                resid, ncv, v, n, iparam, ipntr, workd, workl, size(workl), info)
-    if (info /= 0) call fail(error, exit_solve, "dseupd: info = "//to_text(info))
-    d(:found) = 1/d(:found)
-
-  contains
-
-    !> What ARPACK asks for: y = A x, or y = (sign A^-1 Q + scale) x, with A x known if ido = 1.
-    subroutine answer(x, product)
-      real(wp), intent(in) :: x(n)
-      real(wp), intent(out) :: product(n)
-      real(wp) :: ax(n)
-
-      if (ido == 2) then
-        call multiply(pencil, pencil%a, x, product)
-        return
-      end if
-      call multiply(pencil, pencil%q, x, y(:n))
-      y(:n) = sign_of*y(:n)
-      y(n + 1:) = 0
-      if (scale > 0) then
-        ax = workd(ipntr(3):ipntr(3) + n - 1)
-        if (ido == -1) call multiply(pencil, pencil%a, x, ax)
-        y(:n) = y(:n) + scale*ax
-      end if
-      call solver%solve(y, error)
-      product = y(:n)
-    end subroutine answer
-
-  end subroutine lanczos
 
 end module linalg_eigen

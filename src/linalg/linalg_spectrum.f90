@@ -12,6 +12,9 @@ module linalg_spectrum
 
   !> Eigenvalues closer than this, relatively, are taken for one: no shift is put between them.
   real(wp), parameter :: cluster = 1.0e-3_wp
+
+  !> Up to so many times the first eigenvalue there are none where fewer than wanted were found.
+  real(wp), parameter :: far = 1.0e11_wp
   integer, parameter :: extra_pairs = 2, most_extra = 50
 
 contains
@@ -26,8 +29,9 @@ contains
 
     number = 0
     call solver%factorize(pencil%a - shift*pencil%q, error)
-    if (.not. allocated(error)) &
+    if (.not. allocated(error)) then
       number = solver%negative_pivots() - (pencil%equations - pencil%coordinates)
+    end if
   end subroutine count_between
 
   !> The pairs nearest zero, `wanted` of positive and of negative nu out of those available, and
@@ -51,7 +55,8 @@ contains
       sound = .true.
       do side = 1, 2
         if (min(wanted(side), available(side)) == 0) cycle
-        call check_side(solver, pencil, side, wanted(side), available(side), pairs, sound(side), error)
+        call check_side(solver, pencil, side, wanted(side), available(side), pairs, sound(side), &
+                        error)
         if (allocated(error)) return
       end do
       complete = all(sound)
@@ -63,7 +68,7 @@ contains
   end subroutine find_spectrum
 
   !> Whether as many pairs of a sign were found as there are below a shift in the first gap at or
-  !> behind the last wanted one.
+  !> behind the last wanted one; if fewer were found than wanted, whether these are all.
   subroutine check_side(solver, pencil, side, wanted, available, pairs, sound, error)
     type(solver_t), intent(inout) :: solver
     type(pencil_t), intent(in) :: pencil
@@ -76,8 +81,8 @@ contains
 
     n = pairs%found(side)
     nu = 1/pairs%theta((side - 1)*pairs%found(1) + 1:(side - 1)*pairs%found(1) + n)
-    sound = n >= min(wanted, available)
-    if (.not. sound) return
+    sound = n > 0
+    if (n == 0) return
     k = min(wanted, n)
     do while (k < n)
       if (abs(nu(k + 1) - nu(k)) > cluster*abs(nu(k + 1))) exit
@@ -85,6 +90,7 @@ contains
     end do
     shift = nu(k)*(1 + cluster)
     if (k < n) shift = 0.5_wp*(nu(k) + nu(k + 1))
+    if (n < min(wanted, available)) shift = far*nu(1)
     call count_between(solver, pencil, shift, number, error)
     sound = number == k
   end subroutine check_side

@@ -2,8 +2,10 @@
 module model_check
   use kinds, only: wp
   use text, only: to_text, quoted
+  use errors, only: error_t
   use diagnostics, only: place_t, report_t
-  use model_data, only: model_t, member_t, section_t, mode_flexible, mass_none
+  use section_check, only: check_constants
+  use model_data, only: model_t, member_t, section_t, mode_flexible, mass_none, analysis_eigen
   implicit none
   private
 
@@ -51,38 +53,21 @@ contains
   subroutine check_section(section, report)
     type(section_t), intent(in) :: section
     type(report_t), intent(inout) :: report
+    type(error_t), allocatable :: error
+    integer :: before
 
+    before = report%errors()
     associate (c => section%constants, place => section%place, name => section%name)
       call need_positive(report, place, "A of SECTION", name, c%a)
       call need_positive(report, place, "IY of SECTION", name, c%iy)
       call need_positive(report, place, "IZ of SECTION", name, c%iz)
       call need_positive(report, place, "IT of SECTION", name, c%it)
-      if (c%iw < 0.0_wp) call report%add_error(place, "IW of SECTION "//quoted(trim(name))// &
-                                               " cannot be negative")
-      if (c%ir < 0.0_wp) call report%add_error(place, "IR of SECTION "//quoted(trim(name))// &
-                                               " cannot be negative")
-      if (c%shear_given) then
-        if (.not. positive_definite(c%d)) call report%add_error(place, &
-          "the shear rigidities DY ... DZW of SECTION "//quoted(trim(name))// &
-          " are not positive definite")
-      end if
+      if (report%errors() > before) return
+      call check_constants(c, error)
+      if (.not. allocated(error)) return
+      call report%add_error(place, "SECTION "//quoted(trim(name))//": "//error%message)
     end associate
   end subroutine check_section
-
-  !> Of a symmetric matrix, by its leading minors after scaling the diagonal to one.
-  pure logical function positive_definite(d)
-    real(wp), intent(in) :: d(3, 3)
-    real(wp) :: c12, c13, c23
-
-    positive_definite = d(1, 1) > 0.0_wp .and. d(2, 2) > 0.0_wp .and. d(3, 3) > 0.0_wp
-    if (.not. positive_definite) return
-    c12 = d(1, 2)/(sqrt(d(1, 1))*sqrt(d(2, 2)))
-    c13 = d(1, 3)/(sqrt(d(1, 1))*sqrt(d(3, 3)))
-    c23 = d(2, 3)/(sqrt(d(2, 2))*sqrt(d(3, 3)))
-    positive_definite = max(abs(c12), abs(c13), abs(c23)) < 1.0_wp
-    if (positive_definite) positive_definite = &
-      1.0_wp + 2.0_wp*c12*c13*c23 - c12**2 - c13**2 - c23**2 > 1.0e-12_wp
-  end function positive_definite
 
   !> What elements need to be complete.
   subroutine check_members(model, report)
@@ -145,7 +130,8 @@ contains
                                                             to_text(node%id))
       end associate
     end do
-    if (size(model%pattern) == 0) call report%add_warning(deck_place, "the deck has no loads")
+    if (size(model%pattern) == 0 .and. any(model%analysis%kind /= analysis_eigen)) &
+      call report%add_warning(deck_place, "the deck has no loads")
     do i = 1, size(model%pattern)
       if (.not. any(abs(model%pattern(i)%gravity) > 0)) cycle
       if (has_mass(model)) exit

@@ -6,6 +6,7 @@ module model_data
   use diagnostics, only: place_t
   use formula, only: formula_t
   use section_data, only: section_constants_t, section_geometry_t
+  use section_shapes, only: shape_dimensions_t
   implicit none
   private
 
@@ -30,7 +31,7 @@ module model_data
                                 function_table = 4, function_formula = 5
 
   !> Kinds of analyses.
-  integer, parameter, public :: analysis_static = 1
+  integer, parameter, public :: analysis_static = 1, analysis_buckling = 2, analysis_eigen = 3
 
   !> What a STATIC analysis controls, and what it does about stability.
   integer, parameter, public :: control_load = 0, control_displacement = 1, control_arc = 2
@@ -38,6 +39,9 @@ module model_data
 
   integer, parameter, public :: name_length = 64  !< longest name of a material, section, ...
   integer, parameter, public :: components = 7    !< of a node: X Y Z RX RY RZ W
+
+  !> Poisson's ratio of a section that no material is used with.
+  real(wp), parameter, public :: standard_poisson = 0.3_wp
 
   !> A node id: position and which of its three nodes exist.
   type :: node_t
@@ -62,8 +66,12 @@ module model_data
 
   type :: section_t
     character(len=name_length) :: name = ""
+    character(len=9) :: shape = ""                !< of section_shapes, PLATES or CONSTANTS
+    type(shape_dimensions_t) :: sizes             !< of a shape
+    real(wp) :: poisson = standard_poisson        !< Poisson's ratio in the shear coefficients
     type(section_constants_t) :: constants
     type(section_geometry_t) :: geometry
+    character(len=:), allocatable :: defaults     !< what its card left to the program, as text
     type(place_t) :: place
   end type section_t
 
@@ -155,6 +163,7 @@ module model_data
     type(target_t) :: stop                    !< STOP: ends where this value is passed
     integer :: stability = stability_off      !< one of `stability_*`
     logical :: branch = .false.               !< BRANCH ON: switch to the secondary branch
+    integer :: modes = 10                     !< MODES of BUCKLING (of each sign) and EIGEN
     type(place_t) :: place
   end type analysis_t
 

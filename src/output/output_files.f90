@@ -7,7 +7,7 @@ module output_files
   private
 
   public :: file_exists, folder_exists, check_writable, check_unused, rename_file, remove_file, &
-            error_is_terminal
+            error_is_terminal, link_name
 
   integer(c_int), parameter :: lock_at_once = 6, unlock = 8   !< LOCK_EX + LOCK_NB, LOCK_UN
 
@@ -90,5 +90,18 @@ contains
   logical function error_is_terminal()
     error_is_terminal = c_isatty(2_c_int) == 1
   end function error_is_terminal
+
+  !> A name as it may stand in a path.
+  pure function link_name(name)
+    character(len=*), intent(in) :: name
+    character(len=len(name)) :: link_name
+    integer :: i
+
+    link_name = name
+    do i = 1, len(name)
+      if (name(i:i) == "/") link_name(i:i) = "_"
+    end do
+    if (link_name == "." .or. link_name == "..") link_name = repeat("_", len(name))
+  end function link_name
 
 end module output_files

@@ -3,10 +3,12 @@
 module output_log
   use, intrinsic :: iso_fortran_env, only: output_unit, error_unit
   use kinds, only: wp, i8
-  use text, only: to_text, plural
-  use model_data, only: model_t, analysis_t, control_load, control_arc
+  use text, only: to_text, plural, string_t
+  use model_data, only: model_t, analysis_t, analysis_static, analysis_buckling, control_load, &
+                        control_arc
   use program_version, only: program_name, version
   use recorder, only: step_t, iteration_t
+  use mode_results, only: modes_t, mode_lines
   use system_results, only: results_t
   use output_files, only: error_is_terminal
   implicit none
@@ -19,7 +21,7 @@ module output_log
   integer, parameter :: most_rows = 40                   !< of the table of an analysis
   real(wp), parameter :: patience = 0.5_wp, pause = 0.1_wp  !< first progress line, later ones [s]
   character(len=*), parameter :: erase = achar(13)//achar(27)//"[K"
-  character(len=*), parameter :: kind_names(1) = ["STATIC"]
+  character(len=*), parameter :: kind_names(3) = ["STATIC  ", "BUCKLING", "EIGEN   "]
 
   !> What the summary says of an analysis.
   type :: summary_t
@@ -28,6 +30,7 @@ module output_log
     real(wp) :: factor = 0.0_wp
     real(wp) :: largest = 0.0_wp                 !< displacement at the end
     character(len=:), allocatable :: where       !< its node
+    integer :: modes = -1                        !< found; -1: it has steps
     logical :: complete = .false.
   end type summary_t
 
@@ -51,6 +54,7 @@ module output_log
     procedure :: iteration => log_iteration
     procedure :: remark => log_remark
     procedure :: step => log_step
+    procedure :: modes => log_modes
     procedure :: finish => finish_analysis
     procedure :: close => close_log
   end type run_log_t
@@ -114,7 +118,9 @@ contains
       summary%where = ""
       call say(self, "")
       call say(self, "Analysis "//summary%name//": "//purpose(analysis))
+      if (analysis%kind /= analysis_static) summary%modes = 0
     end associate
+    if (analysis%kind /= analysis_static) return
     if (self%level == log_verbose) then
       call say(self, "    step   load factor   iteration   residual   increment")
     else
@@ -127,6 +133,11 @@ contains
     type(analysis_t), intent(in) :: analysis
     character(len=:), allocatable :: purpose
 
+    if (analysis%kind /= analysis_static) then
+      purpose = plural(analysis%modes, "mode")
+      if (analysis%kind == analysis_buckling) purpose = purpose//" of each sign"
+      return
+    end if
     purpose = plural(analysis%steps, "step")
     if (analysis%control == control_arc) purpose = "at most "//plural(analysis%most_steps, &
                                                    "step")//" along the path,"
@@ -239,6 +250,20 @@ contains
     self%row = ""
   end subroutine print_row
 
+  !> The table of the modes.
+  subroutine log_modes(self, modes_found)
+    class(run_log_t), intent(inout) :: self
+    type(modes_t), intent(in) :: modes_found
+    type(string_t), allocatable :: line(:)
+    integer :: i
+
+    call mode_lines(modes_found, line)
+    do i = 1, size(line)
+      call say(self, line(i)%s)
+    end do
+    self%summary(self%analyses)%modes = modes_found%modes
+  end subroutine log_modes
+
   subroutine finish_analysis(self, complete)
     class(run_log_t), intent(inout) :: self
     logical, intent(in) :: complete
@@ -276,6 +301,12 @@ contains
     integer, intent(in) :: width
     character(len=:), allocatable :: line
 
+    if (summary%modes >= 0) then
+      line = summary%name//repeat(" ", width - len(summary%name))//"   "//plural(summary%modes, &
+        "mode")
+      if (.not. summary%complete) line = line//"   (not complete)"
+      return
+    end if
     line = summary%name//repeat(" ", width - len(summary%name))// &
            right(to_text(summary%steps), 8)//right(to_text(summary%factor), 14)// &
            right(to_text(summary%iterations), 13)//right(to_text(summary%cutbacks), 12)

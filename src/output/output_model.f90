@@ -4,6 +4,7 @@ module output_model
   use model_data, only: model_t, member_t, components, name_length, translational, rotational, &
                         warping
   use output_hdf5, only: hdf5_file_t, about_t
+  use output_drawings, only: write_drawings, write_stress_places
   implicit none
   private
 
@@ -60,6 +61,8 @@ contains
     call write_elements(file, model)
     call write_element_names(file, model)
     call write_sections(file, model)
+    call write_drawings(file, model)
+    call write_stress_places(file, model)
     call write_materials(file, model)
   end subroutine write_model
 
@@ -212,6 +215,8 @@ contains
     call file%group("model/sections")
     call file%write("model/sections/name", model%section%name, &
                     about_t("1", "section", "name"))
+    call file%write("model/sections/shape", model%section%shape, &
+                    about_t("1", "section", "C, I, ..., PLATES or CONSTANTS, as in the deck"))
     call file%write("model/sections/constants", constants, about_t( &
                     "L2 L4 L4 L4 L6 L L L2 L2 L4 L2 L3 L3 L L 1 L6", "section;"// &
                     " A IY IZ IT IW YS ZS DY DZ DW DYZ DYW DZW BY BZ BW IR", &

@@ -4,6 +4,7 @@ module output_recorder
   use model_data, only: model_t, analysis_t
   use system_results, only: results_t
   use recorder, only: recorder_t, step_t, iteration_t
+  use mode_results, only: modes_t
   use output_results, only: result_file_t
   use output_log, only: run_log_t, log_normal
   use output_signals, only: signal_watch_t
@@ -33,6 +34,7 @@ module output_recorder
     procedure :: iteration => record_iteration
     procedure :: remark => record_remark
     procedure :: step => record_step
+    procedure :: modes => record_modes
     procedure :: finish => record_finish
     procedure :: interrupted => ask_interrupted
   end type run_recorder_t
@@ -101,6 +103,15 @@ contains
     call self%file%step(step, results, error)
     if (.not. allocated(error)) call self%log%step(step, results)
   end subroutine record_step
+
+  subroutine record_modes(self, modes_found, error)
+    class(run_recorder_t), intent(inout) :: self
+    type(modes_t), intent(in) :: modes_found
+    type(error_t), allocatable, intent(out) :: error
+
+    call self%file%modes(modes_found, error)
+    if (.not. allocated(error)) call self%log%modes(modes_found)
+  end subroutine record_modes
 
   subroutine record_finish(self, complete, error)
     class(run_recorder_t), intent(inout) :: self

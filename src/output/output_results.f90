@@ -2,26 +2,30 @@
 module output_results
   use kinds, only: i8
   use errors, only: error_t, fail, exit_io
-  use model_data, only: model_t, analysis_t, name_length, control_arc
+  use model_data, only: model_t, analysis_t, analysis_static, name_length, control_arc
   use program_version, only: program_name, version
   use recorder, only: step_t
+  use mode_results, only: modes_t
   use system_results, only: results_t, result_modes
+  use system_stress, only: stress_places, stress_parts
   use output_files, only: file_exists, folder_exists, check_writable, check_unused, &
-                          rename_file, remove_file
+                          rename_file, remove_file, link_name
   use output_hdf5, only: hdf5_file_t, about_t
   use output_tables, only: table_t
   use output_model, only: write_deck, write_model
+  use output_modes, only: write_modes
   implicit none
   private
 
   public :: result_file_t
 
   integer, parameter :: layout_version = 1
-  character(len=*), parameter :: kind_names(1) = ["static"]
+  character(len=*), parameter :: kind_names(3) = ["static  ", "buckling", "eigen   "]
 
   integer, parameter :: load_factor = 1, displacement = 2, euler = 3, warping = 4, reaction = 5, &
                         load = 6, strain = 7, stress = 8, force_p = 9, force_q = 10, &
-                        residual = 11, increment = 12, constraint = 13, reals = 13
+                        residual = 11, increment = 12, constraint = 13, point_stress = 14, &
+                        reals = 14
   integer, parameter :: step_number = 1, iterations = 2, cutbacks = 3, wholes = 3
 
   type :: result_file_t
@@ -30,14 +34,17 @@ module output_results
     character(len=:), allocatable :: path
     character(len=name_length), allocatable :: marker(:)
     integer :: nodes = 0, members = 0
+    integer :: stress_places = 0                !< points where stresses are kept
     integer :: steps = 0                        !< kept so far, in all analyses
     character(len=:), allocatable :: group      !< of the present analysis
+    logical :: stepping = .true.                !< it has steps, else modes
     type(table_t) :: real_table(reals), whole_table(wholes)
     type(table_t), allocatable :: marker_table(:)
   contains
     procedure :: open => open_results
     procedure :: begin => begin_analysis
     procedure :: step => keep_step
+    procedure :: modes => keep_modes
     procedure :: finish => finish_analysis
     procedure :: close => close_results
   end type result_file_t
@@ -69,6 +76,7 @@ contains
     if (allocated(error)) return
     self%nodes = size(model%node)
     self%members = size(model%member)
+    self%stress_places = size(stress_places(model))
     self%marker = model%marker%name
     call self%file%create(partial(self), error)
     if (allocated(error)) then
@@ -120,6 +128,8 @@ contains
     call self%file%group(self%group)
     call self%file%set_text(self%group, "kind", trim(kind_names(analysis%kind)))
     call self%file%set_number(self%group, "complete", 0)
+    self%stepping = analysis%kind == analysis_static
+    if (.not. self%stepping) return
     call start_steps(self, steps)
     call start_nodes(self, steps)
     call start_markers(self, steps)
@@ -127,19 +137,6 @@ contains
     call start_convergence(self, steps)
     call self%file%flush(error)
   end subroutine begin_analysis
-
-  !> A name as it may stand in a path.
-  pure function link_name(name)
-    character(len=*), intent(in) :: name
-    character(len=len(name)) :: link_name
-    integer :: i
-
-    link_name = name
-    do i = 1, len(name)
-      if (name(i:i) == "/") link_name(i:i) = "_"
-    end do
-    if (link_name == "." .or. link_name == "..") link_name = repeat("_", len(name))
-  end function link_name
 
   subroutine start_steps(self, steps)
     type(result_file_t), intent(inout) :: self
@@ -199,6 +196,10 @@ contains
       about_t("F F F FL FL FL FL2", forces, "in the section at end p, positive face, its axes"))
     call start_table(self, force_q, "elements/section_force_q", steps*self%members, 7, &
       about_t("F F F FL FL FL FL2", forces, "in the section at end q, positive face, its axes"))
+    if (self%stress_places == 0) return
+    call start_table(self, point_stress, "elements/point_stress", steps*self%stress_places, &
+      stress_parts, about_t("FL-2", "step*place; total axial bending warping", &
+      "axial stress at the places of /model/stress_points"))
   end subroutine start_elements
 
   subroutine start_convergence(self, steps)
@@ -255,6 +256,7 @@ contains
       call table(stress)%append(file, results%stress)
       call table(force_p)%append(file, results%force_p)
       call table(force_q)%append(file, results%force_q)
+      if (self%stress_places > 0) call table(point_stress)%append(file, results%point_stress)
       do i = 1, size(self%marker)
         call self%marker_table(i)%append(file, results%marker(:, i:i))
       end do
@@ -263,6 +265,17 @@ contains
     if (.not. allocated(error)) self%steps = self%steps + 1
   end subroutine keep_step
 
+  !> Write the modes of the analysis and flush.
+  subroutine keep_modes(self, modes, error)
+    class(result_file_t), intent(inout) :: self
+    type(modes_t), intent(in) :: modes
+    type(error_t), allocatable, intent(out) :: error
+
+    call write_modes(self%file, self%group, modes)
+    call self%file%flush(error)
+    if (.not. allocated(error)) self%steps = self%steps + 1
+  end subroutine keep_modes
+
   !> Close the datasets of the analysis.
   subroutine finish_analysis(self, complete, error)
     class(result_file_t), intent(inout) :: self
@@ -270,13 +283,14 @@ contains
     type(error_t), allocatable, intent(out) :: error
     integer :: i
 
-    do i = 1, reals
+    do i = 1, merge(reals, 0, self%stepping)
+      if (i == point_stress .and. self%stress_places == 0) cycle
       call self%real_table(i)%finish(self%file)
     end do
-    do i = 1, wholes
+    do i = 1, merge(wholes, 0, self%stepping)
       call self%whole_table(i)%finish(self%file)
     end do
-    do i = 1, size(self%marker)
+    do i = 1, merge(size(self%marker), 0, self%stepping)
       call self%marker_table(i)%finish(self%file)
     end do
     if (complete) call self%file%set_number(self%group, "complete", 1)

@@ -7,7 +7,7 @@ module section_data
   private
 
   public :: section_constants_t, section_geometry_t
-  public :: to_principal, principal_point, warping_at, axial_stress
+  public :: to_principal, to_drawn, principal_point, warping_at, axial_stress
 
   !> Kind of a drawing: none (constants only), open walls, solid, closed cell.
   integer, parameter, public :: section_unknown = 0, section_open = 1, section_solid = 2, &
@@ -70,6 +70,15 @@ contains
 
     point = turned(drawn - geometry%centroid, geometry%theta)
   end function to_principal
+
+  !> A point in principal axes in those of the drawing, from its origin.
+  pure function to_drawn(geometry, principal) result(point)
+    type(section_geometry_t), intent(in) :: geometry
+    real(wp), intent(in) :: principal(2)  !< [L]
+    real(wp) :: point(2)
+
+    point = geometry%centroid + turned(principal, -geometry%theta)
+  end function to_drawn
 
   !> The place `AT oy oz` in principal axes through the centroid.
   pure function principal_point(geometry, at) result(point)

@@ -86,7 +86,8 @@ contains
 
     first = system%first(e) + 1
     last = system%first(e + 1)
-    call element%evaluate(iterate%state, iterate%stress(first:last), strain, jacobian, tangent, valid)
+    call element%evaluate(iterate%state, iterate%stress(first:last), strain, jacobian, tangent, &
+                          valid)
     if (.not. valid) then
       iterate%invalid = e
       return
@@ -110,7 +111,8 @@ contains
       end do
       do i = 1, element%strains
         if (system%multiplier(first + i - 1) == 0) cycle
-        iterate%constraint(at) = iterate%constraint(at) + iterate%stress(first + i - 1)*jacobian(i, :)
+        iterate%constraint(at) = iterate%constraint(at) &
+                                 + iterate%stress(first + i - 1)*jacobian(i, :)
       end do
     end associate
     call add_element(system, e, element, tangent, jacobian, iterate%values)
@@ -198,7 +200,8 @@ contains
     end do
     do e = 1, size(system%element)
       associate (jacobian => iterate%jacobian(system%jacobian(e) + 1:system%jacobian(e + 1)))
-        call extrapolate(system, e, system%element(e)%e, jacobian, solution, share, increment, iterate)
+        call extrapolate(system, e, system%element(e)%e, jacobian, solution, share, increment, &
+                         iterate)
       end associate
     end do
     call iterate%state%move(increment)

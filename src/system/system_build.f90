@@ -234,6 +234,8 @@ contains
       do i = 1, system%members
         if (.not. line_mass_given(model, i)) cycle
         system%load(n + 1:n + 2) = weight_loads(model, model%member(i), p)
+        call lean_with_releases(model%member(i), system%element(i)%e%coordinate, &
+                                system%load(n + 1:n + 2))
         n = n + 2
       end do
     end do
@@ -295,6 +297,26 @@ contains
     end do
   end function weight_loads
 
+  !> At an end with released bending the beam's own direction is not that of the node: the arm leans
+  !> by the released angles, ay = rel5/l0, az = -rel3/l0 at p and opposite at q.
+  pure subroutine lean_with_releases(member, coordinate, load)
+    type(member_t), intent(in) :: member
+    integer, intent(in) :: coordinate(:)  !< of its element: 14 of the nodes, then the released modes
+    type(dead_load_t), intent(inout) :: load(2)
+    integer :: e, i, mode
+
+    if (member%mass /= mass_consistent .or. size(coordinate) == 14) return
+    do e = 1, 2
+      do i = 1, 2
+        mode = 6 + e - 2*i  ! towards y: 5, 6; towards z: 3, 4
+        if (member%status(mode) /= mode_released) cycle
+        load(e)%lean(i) = coordinate(14 + count(member%status(:mode) == mode_released))
+        load(e)%lean_rate(i) = (3 - 2*e)*(3 - 2*i)/norm2(member%chord)
+      end do
+      load(e)%axes = (3 - 2*e)*norm2(member%chord)/6*member%triad(:, 2:3)
+    end do
+  end subroutine lean_with_releases
+
   !> A load of a card.
   pure function point_load(model, card, pattern) result(load)
     type(model_t), intent(in) :: model
@@ -320,7 +342,7 @@ contains
   end function point_load
 
   !> Sparsity with a block for each element, coordinates then multipliers, and for each load, the
-  !> rotation and alpha of its node. Dead moments make the tangent unsymmetric (theory 6).
+  !> rotation and alpha of its node and the releases it leans by. Dead moments make the tangent unsymmetric (theory 6).
   pure subroutine find_system_pattern(system)
     type(system_t), intent(inout) :: system
     integer, allocatable :: start(:), member(:)
@@ -329,7 +351,7 @@ contains
 
     blocks = size(system%element) + size(system%load)
     allocate (start(blocks + 1), member(sum([(width(system, e), e=1, size(system%element))]) &
-                                        + 4*size(system%load)))
+                                        + 6*size(system%load)))
     n = 0
     do e = 1, size(system%element)
       start(e) = n + 1
@@ -347,10 +369,15 @@ contains
     do i = 1, size(system%load)
       start(size(system%element) + i) = n + 1
       associate (load => system%load(i))
-        member(n + 1:n + 4) = system%unknown(coordinate_number(load%node([2, 2, 2, 3]), [4, 5, 6, 7]))
+        member(n + 1:n + 4) = &
+          system%unknown(coordinate_number(load%node([2, 2, 2, 3]), [4, 5, 6, 7]))
         if (any(abs(load%moment) > 0) .and. any(member(n + 1:n + 3) > 0)) symmetric = .false.
+        n = n + 4
+        if (all(load%lean == 0)) cycle
+        member(n + 1:n + 2) = 0
+        where (load%lean > 0) member(n + 1:n + 2) = system%unknown(max(1, load%lean))
+        n = n + 2
       end associate
-      n = n + 4
     end do
     start(blocks + 1) = n + 1
     call find_pattern(system%equations(), start, member(:n), symmetric, system%pattern)

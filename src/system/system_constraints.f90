@@ -156,8 +156,7 @@ contains
     n = system%unknowns
     call solver%prepare(n + system%multipliers, [(i, i=1, n), row + n], [(i, i=1, n), column], &
                         .true., error)
-    if (.not. allocated(error)) &
-      call solver%factorize([(1.0_wp, i=1, n), values], error)
+    if (.not. allocated(error)) call solver%factorize([(1.0_wp, i=1, n), values], error)
     dependent = [integer ::]
     if (.not. allocated(error)) then
       dependent = solver%null_pivots() - n

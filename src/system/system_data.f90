@@ -29,6 +29,10 @@ module system_data
     real(wp) :: bimoment = 0.0_wp       !< [F L^2]
     real(wp) :: arm(3) = 0.0_wp         !< initially, global axes [L]
     real(wp) :: warp(3) = 0.0_wp        !< -omega eX of the section [L^2]
+    !> Coordinates of released bending strains by which the arm turns towards `axes`; 0: none.
+    integer :: lean(2) = 0
+    real(wp) :: lean_rate(2) = 0.0_wp   !< angle per released strain [1/L]
+    real(wp) :: axes(3, 2) = 0.0_wp     !< initially, as long as the arm and across it [L]
   end type dead_load_t
 
   !> Sparsity in coordinate form and, for each block (element or load), where its entries go.
@@ -61,7 +65,7 @@ module system_data
     logical, allocatable :: used(:)       !< by coordinate: an element depends on it
     integer, allocatable :: first(:)      !< by element: strains before its own; one more at the end
     integer, allocatable :: jacobian(:)   !< by element: entries of Jacobians before its own
-    integer, allocatable :: multiplier(:) !< by strain of all elements: number of its unknown; 0: none
+    integer, allocatable :: multiplier(:) !< by strain: number of its unknown; 0: none
     logical, allocatable :: dropped(:)    !< by strain: fixed, but follows from other constraints
     type(dead_load_t), allocatable :: load(:)
     type(function_t), allocatable :: function(:)

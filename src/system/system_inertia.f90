@@ -30,7 +30,8 @@ contains
     type(masses_t), intent(out) :: masses
     integer :: i, k
 
-    masses%member = pack([(i, i=1, size(model%member))], [(has_mass(model, i), i=1, size(model%member))])
+    masses%member = pack([(i, i=1, size(model%member))], [(has_mass(model, i), i=1, &
+                                                           size(model%member))])
     allocate (masses%inertia(size(masses%member)), masses%node(3, 2, size(masses%member)))
     allocate (masses%position(3, size(model%node)))
     do i = 1, size(model%node)
@@ -77,9 +78,12 @@ contains
     real(wp) :: centre(2)
 
     centre = 0
-    if (member%section > 0 .and. .not. member%has_stiffness .and. .not. member%rigid) &
-      centre = [model%section(member%section)%constants%ys, model%section(member%section)%constants%zs]
-    inertia = new_inertia(line_densities(model, member), norm2(member%chord), member%triad, centre, &
+    if (member%section > 0 .and. .not. member%has_stiffness .and. .not. member%rigid) then
+      centre = [model%section(member%section)%constants%ys, &
+                model%section(member%section)%constants%zs]
+    end if
+    inertia = new_inertia(line_densities(model, member), norm2(member%chord), member%triad, &
+                          centre, &
                           member%mass == mass_consistent, member%rotary)
   end function member_inertia
 

@@ -1,7 +1,7 @@
 !> Dead loads: forces on the coordinates and their derivatives (theory 6).
 module system_loads
   use kinds, only: wp
-  use nodal_state, only: state_t, coordinate_number
+  use nodal_state, only: state_t, coordinate_number, node_coordinates
   use rotation, only: rotation_matrix, cross, skew, identity3
   use model_functions, only: function_value
   use system_data, only: system_t, dead_load_t
@@ -9,7 +9,7 @@ module system_loads
   implicit none
   private
 
-  public :: amplitudes, add_loads, load_direction
+  public :: amplitudes, add_loads, load_direction, dead_load
 
 contains
 
@@ -23,8 +23,9 @@ contains
     do i = 1, size(system%load)
       associate (load => system%load(i))
         factor(i) = level(load%pattern)
-        if (load%function > 0) &
+        if (load%function > 0) then
           factor(i) = function_value(system%function(load%function), level(load%pattern))
+        end if
       end associate
     end do
   end function amplitudes
@@ -35,16 +36,17 @@ contains
     type(state_t), intent(in) :: state
     real(wp), intent(in) :: level(:)
     real(wp), intent(inout) :: total(:), values(:)
-    real(wp) :: force(7), tangent(4, 4), factor(size(system%load))
-    integer :: i, at(7)
+    real(wp) :: force(9), tangent(6, 6), factor(size(system%load))
+    integer :: i
 
     factor = amplitudes(system, level)
     do i = 1, size(system%load)
       associate (load => system%load(i))
         call dead_load(load, factor(i), state, force, tangent)
-        at = coordinate_number(load%node([1, 1, 1, 2, 2, 2, 3]), [1, 2, 3, 4, 5, 6, 7])
-        total(at) = total(at) + force
-        call add_block(system%pattern, size(system%element) + i, tangent, values)
+        call add_force(load, force, total)
+        associate (n => system%pattern%width(size(system%element) + i))
+          call add_block(system%pattern, size(system%element) + i, tangent(:n, :n), values)
+        end associate
       end associate
     end do
   end subroutine add_loads
@@ -58,8 +60,8 @@ contains
     integer, intent(in) :: pattern
     real(wp), intent(out) :: direction(:)
     real(wp), parameter :: h = 1.0e-5_wp
-    real(wp) :: force(7), tangent(4, 4), rate
-    integer :: i, at(7)
+    real(wp) :: force(9), tangent(6, 6), rate
+    integer :: i
 
     direction = 0
     do i = 1, size(system%load)
@@ -72,36 +74,100 @@ contains
           end associate
         end if
         call dead_load(load, rate, state, force, tangent)
-        at = coordinate_number(load%node([1, 1, 1, 2, 2, 2, 3]), [1, 2, 3, 4, 5, 6, 7])
-        direction(at) = direction(at) + force
+        call add_force(load, force, direction)
       end associate
     end do
   end subroutine load_direction
 
-  !> The kernel: forces on translation, rotation and alpha of the node, and the tangent on rotation
-  !> and alpha: of -F.R(arm + alpha warp), with -skew(T)/2 for a dead moment.
+  !> Add the forces of a load to those of the coordinates.
+  pure subroutine add_force(load, force, total)
+    type(dead_load_t), intent(in) :: load
+    real(wp), intent(in) :: force(9)
+    real(wp), intent(inout) :: total(:)
+    integer :: at(7), j
+
+    at = coordinate_number(load%node([1, 1, 1, 2, 2, 2, 3]), [1, 2, 3, 4, 5, 6, 7])
+    total(at) = total(at) + force(:7)
+    do j = 1, 2
+      if (load%lean(j) > 0) total(load%lean(j)) = total(load%lean(j)) + force(7 + j)
+    end do
+  end subroutine add_force
+
+  !> The kernel: forces on translation, rotation, alpha and the released strains by which the arm
+  !> leans, and the tangent on all but the translation: that of -F.R(arm + alpha warp), with
+  !> -skew(T)/2 for a dead moment.
   pure subroutine dead_load(load, factor, state, force, tangent)
     type(dead_load_t), intent(in) :: load
     real(wp), intent(in) :: factor
     type(state_t), intent(in) :: state
-    real(wp), intent(out) :: force(7), tangent(4, 4)
-    real(wp) :: r(3, 3), o(3), w(3), f(3)
-    integer :: i
+    real(wp), intent(out) :: force(9), tangent(6, 6)
+    real(wp) :: r(3, 3), o(3), across(3, 3), f(3), arm(3), slope(3, 2), bend(3, 2, 2)
+    integer :: i, j
 
     f = factor*load%force
     r = rotation_matrix(state%euler(:, load%node(2)))
-    w = matmul(r, load%warp)
-    o = matmul(r, load%arm) + state%warping(load%node(3))*w
+    call leaning_arm(load, state, arm, slope, bend)
+    across(:, 1) = matmul(r, load%warp)
+    across(:, 2:3) = matmul(r, slope)
+    o = matmul(r, arm) + state%warping(load%node(3))*across(:, 1)
     force(1:3) = f
     force(4:6) = cross(o, f) + factor*load%moment
-    force(7) = dot_product(f, w) + factor*load%bimoment
+    force(7:9) = matmul(f, across)
+    force(7) = force(7) + factor*load%bimoment
+    tangent = 0
     tangent(1:3, 1:3) = dot_product(o, f)*identity3 - 0.5_wp*factor*skew(load%moment)
     do i = 1, 3
       tangent(1:3, i) = tangent(1:3, i) - 0.5_wp*(o*f(i) + f*o(i))
+      tangent(1:3, 3 + i) = -cross(across(:, i), f)
     end do
-    tangent(1:3, 4) = -cross(w, f)
-    tangent(4, 1:3) = tangent(1:3, 4)
-    tangent(4, 4) = 0
+    tangent(4:6, 1:3) = transpose(tangent(1:3, 4:6))
+    do i = 1, 2
+      do j = 1, 2
+        tangent(4 + i, 4 + j) = -dot_product(f, matmul(r, bend(:, i, j)))
+      end do
+    end do
   end subroutine dead_load
+
+  !> The arm, turned by the released bending strains at its end, and its first and second derivatives
+  !> to them: cos(t) arm + sin(t)/t (a1 axes1 + a2 axes2), t**2 = a1**2 + a2**2.
+  pure subroutine leaning_arm(load, state, arm, slope, bend)
+    type(dead_load_t), intent(in) :: load
+    type(state_t), intent(in) :: state
+    real(wp), intent(out) :: arm(3), slope(3, 2), bend(3, 2, 2)
+    real(wp) :: a(2), t, ratio, first, second, lean(3), d(2, 2)
+    integer :: i, j
+
+    arm = load%arm
+    slope = 0
+    bend = 0
+    if (all(load%lean == 0)) return
+    do i = 1, 2
+      a(i) = 0
+      if (load%lean(i) == 0) cycle
+      a(i) = load%lean_rate(i)*state%release(load%lean(i) - node_coordinates*size(state%warping))
+    end do
+    t = norm2(a)
+    if (t < 1.0e-2_wp) then  ! the next terms are below round-off
+      ratio = 1 - t**2/6 + t**4/120
+      first = -1.0_wp/3 + t**2/30 - t**4/840
+      second = 1.0_wp/15 - t**2/210 + t**4/7560
+    else
+      ratio = sin(t)/t
+      first = (cos(t) - ratio)/t**2
+      second = -(ratio + 3*first)/t**2
+    end if
+    lean = matmul(load%axes, a)
+    arm = cos(t)*load%arm + ratio*lean
+    d = reshape([1, 0, 0, 1], [2, 2])
+    do i = 1, 2
+      slope(:, i) = load%lean_rate(i)*(ratio*(load%axes(:, i) - a(i)*load%arm) + first*a(i)*lean)
+      do j = 1, 2
+        bend(:, i, j) = load%lean_rate(i)*load%lean_rate(j)* &
+                        (-(d(i, j)*ratio + first*a(i)*a(j))*load%arm &
+                         + first*(a(i)*load%axes(:, j) + a(j)*load%axes(:, i) + d(i, j)*lean) &
+                         + second*a(i)*a(j)*lean)
+      end do
+    end do
+  end subroutine leaning_arm
 
 end module system_loads

@@ -47,16 +47,16 @@ contains
   pure function measure_value(self, state) result(value)
     class(measure_t), intent(in) :: self
     type(state_t), intent(in) :: state
-    real(wp) :: value, u(3)
+    real(wp) :: value, u(3), p(0:3)
 
     select case (self%component)
     case (1:3)
       u = state%displacement(:, self%node(1)) + point(self, state) - self%arm
       value = u(self%component)
     case (4:6)
-      associate (p => state%euler(:, self%node(2)))
-        value = 2*asin(max(-1.0_wp, min(1.0_wp, sign(1.0_wp, p(0))*p(self%component - 3))))
-      end associate
+      p = state%euler(:, self%node(2))
+      p = sign(1.0_wp, p(0))*p
+      value = 2*asin(max(-1.0_wp, min(1.0_wp, p(self%component - 3))))
     case default
       value = state%warping(self%node(3))
     end select
@@ -84,7 +84,8 @@ contains
       p = state%euler(:, self%node(2))
       p = sign(1.0_wp, p(0))*p
       d = 0.5_wp*(p(0)*identity3 - skew(p(1:3)))
-      slope(4:6) = 2*d(self%component - 3, :)/sqrt(max(1 - p(self%component - 3)**2, epsilon(1.0_wp)))
+      slope(4:6) = 2*d(self%component - 3, :) &
+                   /sqrt(max(1 - p(self%component - 3)**2, epsilon(1.0_wp)))
     case default
       slope(7) = 1
     end select

@@ -43,8 +43,8 @@ contains
         b = touch_block(k)
         width = start(b + 1) - start(b)
         do j = 1, width
-          associate (other => member(start(b) + j - 1), &
-                     at => pattern%place(pattern%first(b) + pair(touch_local(k), j, width, symmetric)))
+          associate (other => member(start(b) + j - 1), at => pattern%place(pattern%first(b) &
+                       + pair(touch_local(k), j, width, symmetric)))
             if (other == 0 .or. (symmetric .and. other > i)) cycle
             if (mark(other) <= local) then
               filled = filled + 1

@@ -85,7 +85,8 @@ contains
     real(wp) :: stress(result_modes), force(max_coordinates), shift(4)
     integer :: e, first, i
 
-    allocate (results%strain(result_modes, system%members), results%stress(result_modes, system%members))
+    allocate (results%strain(result_modes, system%members))
+    allocate (results%stress(result_modes, system%members))
     allocate (results%force_p(7, system%members), results%force_q(7, system%members))
     do e = 1, system%members
       first = system%first(e)

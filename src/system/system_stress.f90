@@ -49,8 +49,8 @@ contains
     points_of = 0
     associate (section => model%member(m)%section)
       if (section == 0) return
-      if (allocated(model%section(section)%geometry%number)) &
-        points_of = size(model%section(section)%geometry%number)
+      if (.not. allocated(model%section(section)%geometry%number)) return
+      points_of = size(model%section(section)%geometry%number)
     end associate
   end function points_of
 

@@ -15,14 +15,15 @@ program bench_tangent
   class(element_t), allocatable :: element
   type(state_t) :: state
   type(rigidity_t) :: rigidity
-  real(wp) :: strain(9), stress(9), b(9, 14), g(14, 14), s(9, 9), sb(9, 14), time(rounds), swap, check
+  real(wp) :: strain(9), stress(9), b(9, 14), g(14, 14), s(9, 9), sb(9, 14)
+  real(wp) :: time(rounds), swap, check
   integer(i8) :: start, finish, rate
   integer :: round, i, j, k
   logical :: valid
 
-  rigidity = rigidity_t(ea=58.8_wp*21000, eiy=8038.7_wp*21000, eiz=559.9_wp*21000, git=35.4_wp*8077, &
-                        eiw=78943.0_wp*21000, ys=-6.08_wp, zs=1.0_wp, by=1.0_wp, bz=31.6_wp, &
-                        bw=0.1_wp, eir=189469.0_wp*21000, polar=146.2_wp)
+  rigidity = rigidity_t(ea=58.8_wp*21000, eiy=8038.7_wp*21000, eiz=559.9_wp*21000, &
+                        git=35.4_wp*8077, eiw=78943.0_wp*21000, ys=-6.08_wp, zs=1.0_wp, &
+                        by=1.0_wp, bz=31.6_wp, bw=0.1_wp, eir=189469.0_wp*21000, polar=146.2_wp)
   rigidity%gd = 8077*reshape([13.4_wp, 1.0_wp, 3.0_wp, 1.0_wp, 26.8_wp, 59.0_wp, 3.0_wp, 59.0_wp, &
                               4338.0_wp], [3, 3])
   rigidity%shear_rigid = .false.

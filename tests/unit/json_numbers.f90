@@ -23,6 +23,7 @@ contains
     deallocate (content)
     allocate (character(len=length) :: content)
     read (unit, iostat=stat) content
+    if (stat /= 0) content = ""
     close (unit)
   end function read_text
 
@@ -51,6 +52,7 @@ contains
           end if
         end if
         i = last
+      case default
       end select
       i = i + 1
     end do

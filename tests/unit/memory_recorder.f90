@@ -7,6 +7,7 @@ module memory_recorder
   use deck_reader, only: read_deck
   use recorder, only: recorder_t, iteration_t, step_t, critical_t
   use system_results, only: results_t
+  use mode_results, only: modes_t
   use analysis_run, only: run_analyses
   use text, only: string_t
   implicit none
@@ -22,6 +23,7 @@ module memory_recorder
     type(results_t), allocatable :: results(:)
     type(string_t), allocatable :: remarks(:)
     logical, allocatable :: completed(:)      !< by analysis
+    type(modes_t), allocatable :: spectrum(:) !< of BUCKLING and EIGEN, in their order
     type(critical_t), allocatable :: critical(:)
   contains
     procedure :: begin => memory_begin
@@ -29,6 +31,7 @@ module memory_recorder
     procedure :: remark => memory_remark
     procedure :: critical_point => memory_critical
     procedure :: step => memory_step
+    procedure :: modes => memory_modes
     procedure :: finish => memory_finish
     procedure :: interrupted => memory_interrupted
   end type memory_t
@@ -59,7 +62,9 @@ contains
     memory%steps = 0
     if (allocated(memory%record)) deallocate (memory%record, memory%results)
     if (allocated(memory%remarks)) deallocate (memory%remarks, memory%completed, memory%critical)
+    if (allocated(memory%spectrum)) deallocate (memory%spectrum)
     allocate (memory%record(400), memory%results(400), memory%remarks(0), memory%completed(0))
+    allocate (memory%spectrum(0))
     allocate (memory%critical(0))
     call read_deck("tests/cases/static/"//name//".deck", override, model, report, error)
     if (allocated(error)) return
@@ -130,6 +135,19 @@ contains
     self%record(self%steps) = step
     self%results(self%steps) = results
   end subroutine memory_step
+
+  subroutine memory_modes(self, modes_found, error)
+    class(memory_t), intent(inout) :: self
+    type(modes_t), intent(in) :: modes_found
+    type(error_t), allocatable, intent(out) :: error
+    type(modes_t), allocatable :: more(:)
+
+    allocate (more(size(self%spectrum) + 1))
+    more(:size(self%spectrum)) = self%spectrum
+    more(size(more)) = modes_found
+    call move_alloc(more, self%spectrum)
+    if (modes_found%modes < 0) allocate (error)
+  end subroutine memory_modes
 
   subroutine memory_finish(self, complete, error)
     class(memory_t), intent(inout) :: self

@@ -16,6 +16,10 @@ program run_tests
   use test_column_vibration, only: run_column_vibration_tests
   use test_static, only: run_static_tests
   use test_path, only: run_path_tests
+  use test_stability, only: run_stability_tests
+  use test_linalg_eigen, only: run_linalg_eigen_tests
+  use test_buckling, only: run_buckling_tests
+  use test_eigen, only: run_eigen_tests
   use test_output_hdf5, only: run_output_hdf5_tests
   use test_output_results, only: run_output_results_tests
   use test_program, only: run_program_tests
@@ -37,6 +41,10 @@ program run_tests
   call run_column_vibration_tests()
   call run_static_tests()
   call run_path_tests()
+  call run_stability_tests()
+  call run_linalg_eigen_tests()
+  call run_buckling_tests()
+  call run_eigen_tests()
   call run_output_hdf5_tests()
   call run_output_results_tests()
   call run_program_tests()

@@ -32,7 +32,7 @@ contains
   subroutine run_element_beamw_tests()
     call run("beamw: reference file, strains and Jacobian of the paper", reference_strains)
     call run("beamw: reference file, stiffness and second-order forms", reference_constants)
-    call run("beamw: reference file, second-order strain, energy, force, tangent", reference_tangent)
+    call run("beamw: reference file, second-order strain, force, tangent", reference_tangent)
     call run("beamw: Jacobian and Hessian agree with differences", differences)
     call run("beamw: released strains agree with differences", released_differences)
     call run("beamw: rigid motion leaves no strain", rigid_motion)
@@ -109,8 +109,10 @@ contains
     call new_element_beamw(reshape([1, 1, 1, 2, 2, 2], [3, 2]), 2, c%chord, c%triad, &
                            spread(.false., 1, 8), spread(0, 1, 8), c%constants, c%element)
     call new_state(2, 0, c%state)
-    c%state%displacement(:, 1) = numbers(member(c%text, "r_p")) - numbers(member(c%text, "rp_initial"))
-    c%state%displacement(:, 2) = numbers(member(c%text, "r_q")) - numbers(member(c%text, "rq_initial"))
+    c%state%displacement(:, 1) = numbers(member(c%text, "r_p")) &
+                                 - numbers(member(c%text, "rp_initial"))
+    c%state%displacement(:, 2) = numbers(member(c%text, "r_q")) &
+                                 - numbers(member(c%text, "rq_initial"))
     c%state%euler(:, 1) = numbers(member(c%text, "euler_p"))
     c%state%euler(:, 2) = numbers(member(c%text, "euler_q"))
     c%state%warping = [get(c%text, "alpha_p"), get(c%text, "alpha_q")]
@@ -154,10 +156,11 @@ contains
       end do
       call beam_kinematics(c%chord + c%state%displacement(:, 2) - c%state%displacement(:, 1), &
                            triad, c%state%warping, no_release, c%length, .false., k)
-      call expect(distance(k%strain, numbers(member(c%text, "strain"))) < 1.0e-9_wp, c%name//" strain")
+      call expect(distance(k%strain, numbers(member(c%text, "strain"))) < 1.0e-9_wp, &
+                  c%name//" strain")
       d = node_columns(transpose(k%gradient))
-      call expect(distance(reshape(transpose(d), [112]), numbers(member(c%text, "D_u"))) < 1.0e-9_wp, &
-                  c%name//" D_u")
+      call expect(distance(reshape(transpose(d), [112]), &
+                           numbers(member(c%text, "D_u"))) < 1.0e-9_wp, c%name//" D_u")
       call free_case(c)
     end do
   end subroutine reference_strains
@@ -177,11 +180,12 @@ contains
     do i = 1, reference_cases()
       call get_case(i, c)
       wanted = numbers(member(c%text, "S_s"))
-      call expect(distance(reshape(c%constants%s(1:8, 1:8), [64]), wanted) < 1.0e-9_wp, c%name//" S_s")
+      call expect(distance(reshape(c%constants%s(1:8, 1:8), [64]), wanted) < 1.0e-9_wp, &
+                  c%name//" S_s")
       if (member(c%text, "Q") /= "") then
         wanted = numbers(member(c%text, "Q"))
-        call expect(distance(pack(c%constants%q(:, :, :size(wanted)/64), .true.), wanted) < 1.0e-9_wp, &
-                    c%name//" Q")
+        call expect(distance(pack(c%constants%q(:, :, :size(wanted)/64), .true.), wanted) &
+                    < 1.0e-9_wp, c%name//" Q")
       end if
       call free_case(c)
     end do
@@ -208,8 +212,8 @@ contains
                            numbers(member(c%text, "energy"))) < 1.0e-9_wp, c%name//" energy")
       call expect(distance(matmul(stress, b), numbers(member(c%text, "force"))) < 1.0e-9_wp, &
                   c%name//" force")
-      call expect(distance(reshape(tangent, [196]), numbers(member(c%text, "tangent"))) < 1.0e-9_wp, &
-                  c%name//" tangent")
+      call expect(distance(reshape(tangent, [196]), &
+                           numbers(member(c%text, "tangent"))) < 1.0e-9_wp, c%name//" tangent")
       call free_case(c)
     end do
   end subroutine reference_tangent
@@ -271,10 +275,12 @@ contains
       moved = c%state
       call moved%move(-step)
       call c%element%evaluate(moved, stress, minus, bm, unused, valid)
-      call expect_close(b(:, j)*scale(j), (plus - minus)/(2*h), 1.0e-8_wp*largest, name//" Jacobian")
+      call expect_close(b(:, j)*scale(j), (plus - minus)/(2*h), 1.0e-8_wp*largest, &
+                        name//" Jacobian")
       step = symmetric_difference(matmul(stress, bp), matmul(stress, bm), scale(j)*h, j, &
                                   matmul(stress, b))
-      call expect_close(g(:, j)*scale*scale(j), step*scale*scale(j), 1.0e-8_wp*largest, name//" Hessian")
+      call expect_close(g(:, j)*scale*scale(j), step*scale*scale(j), 1.0e-8_wp*largest, &
+                        name//" Hessian")
     end do
   end subroutine compare_with_differences
 
@@ -315,7 +321,8 @@ contains
         c%state%displacement(:, 2) = c%state%displacement(:, 1) - c%chord &
                                      + reshape(rotated(euler, spread(c%chord, 2, 3)), [3])
         call c%element%evaluate(c%state, spread(0.0_wp, 1, 9), strain, b, g, valid)
-        call expect_close(strain/c%length, spread(0.0_wp, 1, 9), 40*epsilon(1.0_wp), c%name//" strain")
+        call expect_close(strain/c%length, spread(0.0_wp, 1, 9), 40*epsilon(1.0_wp), &
+                          c%name//" strain")
       end do
       call free_case(c)
     end do

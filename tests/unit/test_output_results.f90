@@ -13,8 +13,10 @@ module test_output_results
   public :: run_output_results_tests
 
   character(len=*), parameter :: marker = "markers/NAME"
-  character(len=*), parameter :: decks(2) = ["tests/cases/program/cantilever.deck", &
-                                             "decks/spacar.deck                  "]
+  character(len=*), parameter :: drawing = "drawings/NAME/"
+  character(len=*), parameter :: decks(3) = ["tests/cases/program/cantilever.deck", &
+                                             "decks/spacar.deck                  ", &
+                                             "tests/cases/program/drawing.deck   "]
 
 contains
 
@@ -29,13 +31,13 @@ contains
   subroutine test_documentation()
     type(outcome_t) :: outcome
     character(len=:), allocatable :: page, path
-    integer :: described(2), i
+    integer :: described(3), i
 
     call read_text("docs/results.md", page)
-    do i = 1, 2
+    do i = 1, 3
       path = scratch("documented.h5")
       call run_spar("run "//trim(decks(i))//" -D parts=3 --quiet -o "//path, outcome)
-      if (i == 2) call run_spar("run "//trim(decks(i))//" --quiet -o "//path, outcome)
+      if (i > 1) call run_spar("run "//trim(decks(i))//" --quiet -o "//path, outcome)
       call expect(outcome%status == 0, trim(decks(i))//" runs")
       call compare_rows(page, path, described(i))
       call expect(described(i) == datasets(path, "/deck") + datasets(path, "/model") &
@@ -43,6 +45,7 @@ contains
     end do
     call expect(described(1) > 40, "the page was read")
     call expect(described(2) == described(1) + 1, "ESTIFF and EM give two more, MARKER one")
+    call expect(described(3) == described(1) + 14, "a drawing nine more, its stresses five")
   end subroutine test_documentation
 
   !> Rows `| `/path` | shape | `dimension` | axes | content |`.
@@ -73,6 +76,8 @@ contains
     name = bare(cell(line, 1))
     at = index(name, marker)
     if (at > 0) name = name(:at - 1)//"markers/tip"
+    at = index(name, drawing)
+    if (at > 0) name = name(:at - 1)//"drawings/angle/"//name(at + len(drawing):)
     call get_numbers(path, name, "dimension", powers)
     if (size(powers) == 0) return
     found = found + 1

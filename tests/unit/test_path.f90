@@ -63,7 +63,8 @@ contains
     if (n < 20) return
     call expect(size(memory%critical) == 2, "two limit points")
     if (size(memory%critical) /= 2) return
-    call expect_close(memory%critical(1)%factor/1.8556727825252703_wp, 1.0_wp, 3.0e-3_wp, "first limit")
+    call expect_close(memory%critical(1)%factor/1.8556727825252703_wp, 1.0_wp, 3.0e-3_wp, &
+                      "first limit")
     call expect_close(memory%critical(2)%factor/(-0.9414452350338697_wp), 1.0_wp, 1.0e-2_wp, &
                       "second limit")
     call expect(all(memory%critical%kind == critical_limit), "of the kind limit point")
@@ -73,7 +74,8 @@ contains
                forth => [(v(i) < v(i - 1) .and. v(i) < v(i + 1), i=2, n - 1)])
       call expect(count(back) == 1 .and. count(forth) == 1, "v turns back once and forth once")
       call expect_close(v(1 + findloc(back, .true., 1)), 61.003_wp, 0.3_wp, "v where it turns back")
-      call expect_close(v(1 + findloc(forth, .true., 1)), 50.749_wp, 0.3_wp, "v where it turns forth")
+      call expect_close(v(1 + findloc(forth, .true., 1)), 50.749_wp, 0.3_wp, &
+                        "v where it turns forth")
     end associate
     call expect_close(memory%record(n)%factor, 3.0_wp, 1.0e-12_wp, "ends at TO exactly")
     call expect_few_iterations(memory, "Lee's frame")
@@ -81,8 +83,9 @@ contains
 
   !> P at w = 0.1, 0.2, ... 0.7 and the two limit loads, exact boundary-value problem.
   subroutine williams()
-    real(wp), parameter :: p(7) = [25.201324868243898_wp, 33.49186223583465_wp, 32.83364624529159_wp, &
-      31.283552473897846_wp, 36.0725563650806_wp, 53.285291179804105_wp, 88.1642856891828_wp]
+    real(wp), parameter :: p(7) = [25.201324868243898_wp, 33.49186223583465_wp, &
+      32.83364624529159_wp, 31.283552473897846_wp, 36.0725563650806_wp, 53.285291179804105_wp, &
+      88.1642856891828_wp]
     type(memory_t) :: memory
     type(model_t) :: model
 
@@ -100,8 +103,10 @@ contains
   !> Theory 10: F at D for -w(D) = 30, 60, 90, 150, 210, 300 cm, ten elements; the shell within
   !> 1 % up to 150 cm and 3.5 % at 300; F at E for 30, 90, 210 cm.
   subroutine channel()
-    real(wp), parameter :: d(6) = [8.7934_wp, 9.5363_wp, 10.3907_wp, 12.6174_wp, 15.6318_wp, 21.7805_wp]
-    real(wp), parameter :: shell(6) = [8.753_wp, 9.532_wp, 10.379_wp, 12.544_wp, 15.413_wp, 21.062_wp]
+    real(wp), parameter :: d(6) = &
+      [8.7934_wp, 9.5363_wp, 10.3907_wp, 12.6174_wp, 15.6318_wp, 21.7805_wp]
+    real(wp), parameter :: shell(6) = &
+      [8.753_wp, 9.532_wp, 10.379_wp, 12.544_wp, 15.413_wp, 21.062_wp]
     real(wp), parameter :: e(3) = [11.3646_wp, 12.6819_wp, 17.2141_wp]
     type(memory_t) :: memory
     type(model_t) :: model
@@ -125,7 +130,8 @@ contains
   subroutine channel_robust()
     character(len=*), parameter :: second(3) = ["second=CONSISTENT", "second=JONKER    ", &
                                                 "second=NONE      "]
-    character(len=*), parameter :: mesh(3) = ["n=10", "n=20", "n=40"], corner(2) = ["z=14.2 ", "z=-14.2"]
+    character(len=*), parameter :: mesh(3) = ["n=10", "n=20", "n=40"]
+    character(len=*), parameter :: corner(2) = ["z=14.2 ", "z=-14.2"]
     real(wp), parameter :: at_300(3) = [21.7805_wp, 0.0_wp, 21.5192_wp]
     character(len=20) :: setting(3)
     type(memory_t) :: memory

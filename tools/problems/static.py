@@ -1,0 +1,214 @@
+"""Large displacements and small: decks of tests/cases/static."""
+import numpy as np
+
+from spar_tools import figures
+from spar_tools.shapes import Shapes
+
+from .kit import Number, Problem, short
+
+# Load PL2/EI, w/L, u/L, theta of the elastica: elliptic integrals (Mattiasson 1981).
+ELASTICA = np.array([
+    [0.2, 0.06636448, 0.002646548, 0.09963616], [0.4, 0.1309752, 0.01035392, 0.1971546],
+    [0.6, 0.1923503, 0.02248767, 0.2907377], [0.8, 0.2494515, 0.03816561, 0.3790630],
+    [1, 0.3017208, 0.05643324, 0.4613520], [1.5, 0.4109782, 0.1079415, 0.6395398],
+    [2, 0.4934575, 0.1606417, 0.7817498], [3, 0.6032534, 0.2544202, 0.9860169],
+    [4, 0.6699642, 0.3289412, 1.121239], [5, 0.7137915, 0.3876284, 1.215368],
+    [6, 0.7445712, 0.4345888, 1.283697], [7, 0.7673691, 0.4729274, 1.334960],
+    [8, 0.7849824, 0.5048277, 1.374432], [9, 0.7990555, 0.5318206, 1.405465],
+    [10, 0.8106090, 0.5549956, 1.430286]])
+
+
+def elastica(bench):
+    """STA-01."""
+    problem = Problem("STA-01", "Elastica: cantilever with a transverse dead load",
+                      "Bisshopp and Drucker 1945; Mattiasson, IJNME 17 (1981) 145", "closed form")
+    results = bench.run("tests/cases/static/elastica.deck")
+    parts = [results.analysis(name) for name in ("1", "2", "3")]
+    w, u, angle = (np.concatenate([results.series(part, path) for part in parts]) for path in (
+        "nodes/2/Z", "-nodes/2/X", "nodes/2/angle"))
+    problem.text("`tests/cases/static/elastica.deck`: 16 elements; deflection w, shortening u and"
+                 " rotation θ of the tip over the load. The axial stiffness is finite (stretch 1e-5"
+                 " of the length), the closed form has none. Allowed: 1e-4 of each.")
+    rows = []
+    for row, got in zip(ELASTICA, zip(w, u, angle)):
+        numbers = [Number(x, ref, 1e-4) for x, ref in zip(got, row[1:])]
+        worst = max(numbers, key=lambda n: abs(n.error))
+        rows.append([f"{row[0]:g}", *numbers, short(worst.error)])
+    problem.table(["PL²/EI", "w/L", "u/L", "θ", "largest error"], rows)
+    problem.picture("elastica.png", "Elastica: shapes, and tip against load",
+                    lambda path: draw_elastica(path, results, parts, (w, u, angle)))
+    return problem
+
+
+def draw_elastica(path, results, parts, tip):
+    """Shapes on the left, tip against load on the right; dots are the closed form."""
+    figure, (left, right) = figures.new_figure(6.8, 2.9, 2, width_ratios=[1, 1.1])
+    shapes = Shapes(results)
+    view = figures.View("XZ")
+    chosen = [(0, 0), (0, 1), (0, 3), (0, 5), (1, 2), (2, 3), (2, 8)]
+    for k, (part, step) in enumerate(chosen):
+        state = results.step_state(parts[part], step)
+        colour = figures.PALE if step == 0 else figures.SHADES(k / (len(chosen) - 1))
+        figures.draw_lines(left, shapes, state, view, colors=[colour], linewidths=1.4)
+    figures.finish_view(left, view, "")
+    left.set(xlabel="x/L", ylabel="z/L", ylim=(-0.05, 0.9))
+    for values, reference, name, colour in zip(tip, ELASTICA[:, 1:].T, ("w/L", "u/L", "θ (rad)"),
+                                               figures.COLOURS):
+        right.plot([0, *ELASTICA[:, 0]], [0, *values], color=colour, label=name)
+        right.plot(ELASTICA[:, 0], reference, "o", color=colour, mfc="white", mew=0.9)
+    right.plot([], [], "o", color=figures.GREY, mfc="white", label="closed form")
+    right.set(xlabel="PL²/EI", ylabel="tip", xlim=(0, 10.2), ylim=(0, 1.55))
+    right.legend(loc="upper left", bbox_to_anchor=(0, 0.9), ncols=1)
+    figures.save(figure, path)
+
+
+def roll_up(bench):
+    """STA-02."""
+    problem = Problem("STA-02", "Roll-up by an end moment",
+                      "constant curvature; error law by hand", "closed form")
+    meshes = [4, 8, 16, 32]
+    computed, law, circle = [], [], []
+    for n in meshes:
+        results = bench.run("tests/cases/static/rollup.deck", n=n)
+        tip = results.stacked(results.analysis(), "nodes/displacement")[:, results.node(2)]
+        computed.append(np.linalg.norm(tip[4] - [-1, 0, 2 / np.pi]) * np.pi / 2)
+        circle.append(np.linalg.norm(tip[9] - [-1, 0, 0]))
+        law.append((np.pi / n)**4 / 1920)
+    problem.text("`tests/cases/static/rollup.deck`, n elements, ten steps to a full circle, which"
+                 " closes to 1e-9 of the length by symmetry. The half circle shows what the element"
+                 " leaves out: bent by an angle a it takes 1 - a²/24 for the chord over the arc,"
+                 " sin(a/2)/(a/2): a⁴/1920 too short. The distance of the tip from its place, over"
+                 " the tip's height 2L/π, follows that law.")
+    problem.compare([(f"half circle, n = {n}", Number(x, ref, 0.01, 3))
+                     for n, x, ref in zip(meshes, computed, law)])
+    problem.numbers += [Number(1 + x, 1, 1e-9) for x in circle]
+    problem.picture("rollup.png", "Roll-up: error of the half circle over the number of elements",
+                    lambda path: draw_roll_up(path, bench, meshes, computed))
+    return problem
+
+
+def draw_roll_up(path, bench, meshes, computed):
+    """Shapes of the ten steps, and the error against the law."""
+    figure, (left, right) = figures.new_figure(6.4, 2.8, 2)
+    results = bench.run("tests/cases/static/rollup.deck", n=16)
+    shapes, view = Shapes(results), figures.View("XZ")
+    for step in range(11):
+        colour = figures.PALE if step == 0 else figures.SHADES(step / 10)
+        figures.draw_lines(left, shapes, results.step_state(results.analysis(), step), view,
+                           colors=[colour], linewidths=1.4)
+    figures.finish_view(left, view, "")
+    left.set(xlabel="x/L", ylabel="z/L")
+    n = np.array([3.5, 36])
+    right.loglog(n, (np.pi / n)**4 / 1920, color=figures.GREY, lw=1, label="a⁴/1920, a = π/n")
+    right.loglog(meshes, computed, "o", color=figures.COLOURS[0], label="spar")
+    elements_axis(right, meshes)
+    right.set_ylabel("error of the half circle")
+    right.legend()
+    figures.save(figure, path)
+
+
+def elements_axis(axes, meshes):
+    """Numbers of elements on a logarithmic axis."""
+    axes.set_xscale("log")
+    axes.set_xticks(meshes, labels=[str(n) for n in meshes])
+    axes.minorticks_off()
+    axes.set_xlabel("elements")
+
+
+def reissner(bench):
+    """STA-05."""
+    problem = Problem("STA-05", "Thick cantilever, flexible in shear and axially",
+                      "exact boundary-value problem of Reissner's beam; Nachbagauer, Pechstein,"
+                      " Irschik and Gerstmayr 2011", "exact solution")
+    deck = "tests/cases/static/reissner.deck"
+    problem.text(f"`{deck}`: L = 2 m, h = 0.5 m, 40 elements, shear on. Exudyn prints for 1024"
+                 " elements u = 0.15097102, w = 0.71056836 m at the large load.")
+    rows = []
+    for f, wanted, allowed in (("62.5e6", (0.15097114, 0.71056860, 0.52017317), 1e-4),
+                               ("62500", (1.8884916e-7, 8.0990325e-4, 5.7971007e-4), 1e-4)):
+        results = bench.run(deck, f=f)
+        last = results.analysis()
+        for name, path, ref in zip(("u (m)", "w (m)", "θ (rad)"),
+                                   ("-nodes/2/X", "nodes/2/Z", "nodes/2/angle"), wanted):
+            load = "62.5 MN" if f == "62.5e6" else "62.5 kN"
+            rows.append((f"{name}, {load}", Number(results.series(last, path)[-1], ref, allowed)))
+    problem.compare(rows)
+    return problem
+
+
+def bend(bench):
+    """STA-07."""
+    problem = Problem("STA-07", "45° bend: large bending and torsion in space",
+                      "exact Reissner beam by shooting, torsion constant 0.14058; Bathe and"
+                      " Bolourchi, IJNME 14 (1979) 961", "exact solution")
+    deck = "tests/cases/static/bend45.deck"
+    exact = {300: (58.535933, 22.112615, 40.480262), 600: (46.891925, 15.557786, 53.607369)}
+    meshes = [8, 16, 32]
+    errors, rows = {300: [], 600: []}, []
+    for n in meshes:
+        results = bench.run(deck, n=n)
+        tip = results.node(n + 1)
+        move = results.stacked(results.analysis(), "nodes/displacement")[:, tip]
+        for load, wanted in exact.items():
+            got = results.position[tip] + move[load // 100 - 1]
+            numbers = [Number(x, ref, 6e-3 * (8 / n)**2) for x, ref in zip(got, wanted)]
+            errors[load].append(np.linalg.norm(got - wanted) / np.linalg.norm(wanted))
+            rows.append([f"{load}, {n}", *numbers, short(max(
+                (m.error for m in numbers), key=abs)), short(numbers[0].allowed)])
+    for load, wanted in exact.items():
+        rows.append([f"{load}, exact", *(f"{x:.6g}" for x in wanted), "", ""])
+    problem.text(f"`{deck}`: R = 100, the bend as a polygon of n straight elements: its distance"
+                 " from the arc is the error, which falls with n². Published for eight elements:"
+                 " Simo and Vu-Quoc 58.84, 22.33, 40.08 (300) and 47.23, 15.79, 53.37 (600), Bathe"
+                 " and Bolourchi 47.2, 15.9, 53.4 (600), with a torsion constant of 1/6.")
+    problem.table(["load, elements", "x of the tip", "y", "z", "largest error", "allowed"], rows)
+    return problem
+
+
+def torsion(bench):
+    """STA-13."""
+    problem = Problem("STA-13", "Non-uniform torsion with bimoment",
+                      "hyperbolic functions, Vlasov and with shear of warping", "closed form")
+    deck = "tests/cases/static/torsion.deck"
+    problem.text(f"`{deck}`: I beam clamped with its warping, L = 3 m, kL = 1.97, tip torque 1000 N"
+                 " m scaled by 1e-6 to stay linear (values per 1000 N m); 16 elements.")
+    exact = {"OFF": (0.14299338, 0.067643679, 1462.1116, 478.42808, 0.048007279),
+             "ON": (0.14319147, 0.067582768, 1459.9812, 478.18180, 0.048182467)}
+    names = ("twist at the tip (rad)", "warping at the tip (1/m)", "bimoment of the clamp (N m²)",
+             "bimoment in the middle (N m²)", "twist in the middle (rad)")
+    rows = []
+    for shear, wanted in exact.items():
+        results = bench.run(deck, shear=shear)
+        group = results.analysis()
+        part = results.file["model/elements/part"][()]
+        element = results.file["model/elements/id"][()]
+        force = group["elements/section_force_p"][()]
+        row = [int(np.flatnonzero((element == k) & (part == 1))[0]) for k in (1, 2)]
+        got = (results.series(group, "nodes/3/angle")[0], results.series(group, "nodes/3/warping")[0],
+               force[row[0], 6], force[row[1], 6], results.series(group, "nodes/2/angle")[0])
+        theory = "Vlasov" if shear == "OFF" else "with shear"
+        rows += [(f"{theory}: {name}", Number(1e6 * x, ref, 1e-4))
+                 for name, x, ref in zip(names, got, wanted)]
+    problem.compare(rows)
+    return problem
+
+
+def small_channel(bench):
+    """STA-16."""
+    problem = Problem("STA-16", "Channel cantilever, small load through the web",
+                      "beam theory: PL³/(3EI) + PL/(GD), twist with restrained warping",
+                      "closed form")
+    deck = "tests/cases/static/channel.deck"
+    problem.text(f"`{deck}` with f = 1e-6 kN, z = 0, shear on: the paper's Fig. 11. The load passes"
+                 " 3.622 cm beside the shear centre.")
+    results = bench.run(deck, f="1e-6", z=0, shear="ON")
+    group = results.analysis()
+    problem.compare([
+        ("deflection of the shear centre per kN (cm)",
+         Number(-1e6 * results.series(group, "markers/S/Z")[0], 1.4436183, 1e-4)),
+        ("twist per kN (rad)",
+         Number(1e6 * results.series(group, "nodes/2/angle")[0], 0.010434249, 2e-3))])
+    return problem
+
+
+PROBLEMS = [elastica, roll_up, reissner, bend, torsion, small_channel]
