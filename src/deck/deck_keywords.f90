@@ -86,8 +86,8 @@ contains
     type(keyword_t) :: table(size(shape_rules))
     character(len=*), parameter :: faces = ". OUTER (default): sizes over the faces; MIDLINE: "// &
       "between the midlines of the walls"
-    character(len=*), parameter :: shear = ". Its shear coefficients are for Poisson's ratio of "// &
-      "the material it is used with (of several: the first; of none: 0.3)"
+    character(len=*), parameter :: shear = ". Its shear coefficients are for Poisson's ratio "// &
+      "of the material it is used with (of several: the first; of none: 0.3)"
     character(len=*), parameter :: help(size(shape_rules)) = [character(len=400) :: &
       "is a channel: height H along z, flanges B, T (upper) and B2, T2 (lower) towards +y, web "// &
       "TW at the left, lips LIP turned inwards. Points: 1 upper tip, 2 3 corners, 4 lower tip, "// &

@@ -3,7 +3,7 @@ module deck_manual
   use text, only: upper, joined, nearest_word
   use deck_handler, only: keyword_t
   use deck_keywords, only: keywords
-  use deck_usage, only: usage_t, form_t, argument_t, parse_usage, kind_real, kind_choice, &
+  use deck_usage, only: usage_t, argument_t, parse_usage, kind_real, kind_choice, &
                         kind_id, kind_node, kind_element, kind_nodes, kind_elements, kind_count, &
                         kind_mode, kind_component, kind_literal
   implicit none
@@ -17,26 +17,41 @@ contains
   subroutine list_keywords(unit)
     integer, intent(in) :: unit
     type(keyword_t), allocatable :: table(:)
-    character(len=16) :: name
+    character(len=20) :: name
     integer :: i
 
     allocate (table, source=keywords())
     do i = 1, size(table)
-      name = table(i)%name
+      name = title(table(i))
       write (unit, "(a)") name//first_clause(trim(table(i)%help))
     end do
     write (unit, "(/, a)") "spar keywords KEYWORD shows one in full, with an example."
   end subroutine list_keywords
 
-  !> A help text up to its first full stop or semicolon.
+  !> A keyword and, of one with variants, the word that tells them apart: `SECTION C`.
+  function title(keyword)
+    type(keyword_t), intent(in) :: keyword
+    character(len=:), allocatable :: title
+    type(usage_t) :: usage
+
+    call parse_usage(keyword%name, keyword%forms, keyword%options, usage)
+    title = trim(keyword%name)
+    if (usage%literal > 0) then
+      title = title//" "//trim(usage%form(1)%argument(usage%literal)%name)
+    end if
+  end function title
+
+  !> A help text up to its first full stop, semicolon or colon.
   pure function first_clause(help) result(clause)
     character(len=*), intent(in) :: help
     character(len=:), allocatable :: clause
-    integer :: stop_at
+    character(len=2), parameter :: ends(3) = ["; ", ". ", ": "]
+    integer :: stop_at, i
 
     stop_at = len(help)
-    if (index(help, "; ") > 0) stop_at = min(stop_at, index(help, "; ") - 1)
-    if (index(help, ". ") > 0) stop_at = min(stop_at, index(help, ". ") - 1)
+    do i = 1, size(ends)
+      if (index(help, ends(i)) > 0) stop_at = min(stop_at, index(help, ends(i)) - 1)
+    end do
     clause = help(:stop_at)
   end function first_clause
 
@@ -64,6 +79,7 @@ contains
     integer, intent(in) :: unit
     type(keyword_t), intent(in) :: keyword
     type(usage_t) :: usage
+    type(argument_t), allocatable :: arguments(:)
     integer :: i
 
     call parse_usage(keyword%name, keyword%forms, keyword%options, usage)
@@ -71,8 +87,9 @@ contains
       write (unit, "(a)") form_line(usage, i)
     end do
     write (unit, "(4x, a)") trim(keyword%name)//" "//trim(keyword%help)//"."
-    do i = 1, most_arguments(usage)
-      write (unit, "(4x, a)") argument_line(longest_form(usage), i)
+    allocate (arguments, source=arguments_of(usage))
+    do i = 1, size(arguments)
+      write (unit, "(4x, a)") arguments(i)%name//kind_text(arguments(i))
     end do
     do i = 1, size(usage%option)
       write (unit, "(4x, a)") option_line(usage, i)
@@ -103,29 +120,21 @@ contains
     if (size(usage%option) > 0) line = line//" [options]"
   end function form_line
 
-  pure integer function most_arguments(usage)
+  !> The arguments of all forms, each name once.
+  pure function arguments_of(usage) result(arguments)
     type(usage_t), intent(in) :: usage
+    type(argument_t), allocatable :: arguments(:)
+    integer :: i, k
 
-    most_arguments = maxval(usage%form%arguments)
-  end function most_arguments
-
-  pure function longest_form(usage) result(form)
-    type(usage_t), intent(in) :: usage
-    type(form_t) :: form
-
-    form = usage%form(maxloc(usage%form%arguments, 1))
-  end function longest_form
-
-  !> `x           number [L]`.
-  function argument_line(form, i) result(line)
-    type(form_t), intent(in) :: form
-    integer, intent(in) :: i
-    character(len=:), allocatable :: line
-    character(len=16) :: name
-
-    name = form%argument(i)%name
-    line = name//kind_text(form%argument(i))
-  end function argument_line
+    allocate (arguments(0))
+    do i = 1, size(usage%form)
+      do k = 1, usage%form(i)%arguments
+        associate (argument => usage%form(i)%argument(k))
+          if (.not. any(arguments%name == argument%name)) arguments = [arguments, argument]
+        end associate
+      end do
+    end do
+  end function arguments_of
 
   !> What an argument must be, in words.
   function kind_text(argument) result(phrase)
@@ -136,8 +145,7 @@ contains
     case (kind_real)
       phrase = "number"//dimension_text(argument%unit)
     case (kind_choice)
-      phrase = trim(argument%unit)
-      if (phrase(len(phrase):) == "/") phrase = phrase(:len(phrase) - 1)
+      phrase = alternatives(trim(argument%unit))
     case (kind_id)
       phrase = "the card's own id, or a range a:b or a:b:s"
     case (kind_node)
@@ -155,11 +163,30 @@ contains
     case (kind_component)
       phrase = "X Y Z RX RY RZ W, or SPACAR's number"
     case (kind_literal)
-      phrase = "as it stands"
+      phrase = "the word itself"
     case default
       phrase = "word"
     end select
   end function kind_text
+
+  !> `ON/OFF` as `ON or OFF`.
+  pure function alternatives(choice) result(phrase)
+    character(len=*), intent(in) :: choice
+    character(len=:), allocatable :: phrase
+    integer :: i, last
+
+    phrase = ""
+    last = index(choice, "/", back=.true.)
+    do i = 1, len(choice)
+      if (choice(i:i) /= "/") then
+        phrase = phrase//choice(i:i)
+      else if (i < last) then
+        phrase = phrase//", "
+      else if (i < len(choice)) then
+        phrase = phrase//" or "
+      end if
+    end do
+  end function alternatives
 
   !> ` [F L^-2]`; nothing for a number without dimension.
   pure function dimension_text(unit) result(phrase)
@@ -191,11 +218,18 @@ contains
         if (kind == kind_text(option%value(i))) cycle
         kind = joined(kind, ", ", kind_text(option%value(i)))
       end do
-      if (option%name == "AT") kind = "numbers [L], or POINT and the number of a section's point"
+      select case (option%name)
+      case ("AT")
+        kind = "numbers [L], or POINT and the number of a section's point"
+      case ("DISPLACEMENT", "STOP")
+        kind = "node or marker, X Y Z RX RY RZ W or SPACAR's number, number [L, 1 or L^-1]"
+      case default
+      end select
       if (option%required) kind = joined(kind, ", ", "required")
       if (option%default /= "") kind = joined(kind, ", ", "default "//trim(option%default))
       column = name
       line = trim(column//"  "//kind)
+      if (len(name) > len(column)) line = trim(name//"  "//kind)
     end associate
   end function option_line
 
@@ -214,46 +248,76 @@ contains
     end do
   end subroutine write_example
 
-  !> The keyword chapter of the manual.
+  !> The keyword chapter of the manual: an index, then every keyword.
   subroutine keywords_markdown(unit)
     integer, intent(in) :: unit
     type(keyword_t), allocatable :: table(:)
-    type(usage_t) :: usage
-    integer :: i, k
+    integer :: i
 
     allocate (table, source=keywords())
+    write (unit, "(a)") "| keyword | | may stand |", "|---|---|---|"
     do i = 1, size(table)
-      call parse_usage(table(i)%name, table(i)%forms, table(i)%options, usage)
-      if (i == 1) then
-        write (unit, "(a)") "### "//trim(table(i)%name)
-      else if (table(i)%name /= table(i - 1)%name) then
-        write (unit, "(/, a)") "### "//trim(table(i)%name)
-      end if
-      write (unit, "(a)") ""
-      do k = 1, size(usage%form)
-        write (unit, "(a)") "    "//form_line(usage, k)
-      end do
-      write (unit, "(/, a)") "`"//trim(table(i)%name)//"` "//trim(table(i)%help)//"."
-      call markdown_table(unit, usage)
-      if (table(i)%spacar /= "") write (unit, "(/, a)") "SPACAR: `"//trim(table(i)%spacar)//"`."
-      write (unit, "(/, a, /)") "Example:"
-      call write_example(unit, table(i)%example, "    ")
+      write (unit, "(a)") "| ["//title(table(i))//"](#"//anchor(title(table(i)))//") | "// &
+        first_clause(trim(table(i)%help))//" | "//stage_text(trim(table(i)%stage))//" |"
+    end do
+    do i = 1, size(table)
+      call markdown_keyword(unit, table(i))
     end do
   end subroutine keywords_markdown
+
+  !> What a heading's link is called: small letters, hyphens for blanks.
+  pure function anchor(heading)
+    character(len=*), intent(in) :: heading
+    character(len=len(heading)) :: anchor
+    integer :: i
+
+    anchor = heading
+    do i = 1, len(heading)
+      if (heading(i:i) >= "A" .and. heading(i:i) <= "Z") anchor(i:i) = &
+        achar(iachar(heading(i:i)) + 32)
+      if (heading(i:i) == " ") anchor(i:i) = "-"
+    end do
+  end function anchor
+
+  !> Where in a deck the cards of a stage may stand.
+  pure function stage_text(stage) result(phrase)
+    character(len=*), intent(in) :: stage
+    character(len=:), allocatable :: phrase
+
+    phrase = "anywhere"
+    if (stage == "model") phrase = "before the first analysis"
+  end function stage_text
+
+  subroutine markdown_keyword(unit, keyword)
+    integer, intent(in) :: unit
+    type(keyword_t), intent(in) :: keyword
+    type(usage_t) :: usage
+    integer :: k
+
+    call parse_usage(keyword%name, keyword%forms, keyword%options, usage)
+    write (unit, "(/, a, /)") "### "//title(keyword)
+    do k = 1, size(usage%form)
+      write (unit, "(a)") "    "//form_line(usage, k)
+    end do
+    write (unit, "(/, a)") "`"//trim(keyword%name)//"` "//trim(keyword%help)//"."
+    call markdown_table(unit, usage)
+    if (keyword%spacar /= "") write (unit, "(/, a)") "SPACAR: `"//trim(keyword%spacar)//"`."
+    write (unit, "(/, a, /)") "Example:"
+    call write_example(unit, keyword%example, "    ")
+  end subroutine markdown_keyword
 
   subroutine markdown_table(unit, usage)
     integer, intent(in) :: unit
     type(usage_t), intent(in) :: usage
-    type(form_t) :: form
+    type(argument_t), allocatable :: arguments(:)
     character(len=:), allocatable :: line
     integer :: i
 
-    form = longest_form(usage)
-    if (form%arguments + size(usage%option) == 0) return
+    allocate (arguments, source=arguments_of(usage))
+    if (size(arguments) + size(usage%option) == 0) return
     write (unit, "(/, a, /, a)") "| | |", "|---|---|"
-    do i = 1, form%arguments
-      write (unit, "(a)") "| "//trim(form%argument(i)%name)//" | "// &
-        kind_text(form%argument(i))//" |"
+    do i = 1, size(arguments)
+      write (unit, "(a)") "| `"//trim(arguments(i)%name)//"` | "//kind_text(arguments(i))//" |"
     end do
     do i = 1, size(usage%option)
       line = option_line(usage, i)

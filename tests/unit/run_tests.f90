@@ -23,6 +23,8 @@ program run_tests
   use test_output_hdf5, only: run_output_hdf5_tests
   use test_output_results, only: run_output_results_tests
   use test_program, only: run_program_tests
+  use test_deck_sections, only: run_deck_sections_tests
+  use test_section_command, only: run_section_command_tests
   implicit none
 
   call run_linalg_tests()
@@ -48,5 +50,7 @@ program run_tests
   call run_output_hdf5_tests()
   call run_output_results_tests()
   call run_program_tests()
+  call run_deck_sections_tests()
+  call run_section_command_tests()
   call finish()
 end program run_tests

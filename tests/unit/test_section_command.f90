@@ -175,6 +175,7 @@ contains
     call expect_status("check "//deck, 0, outcome)
     call expect_text(outcome%output, "defaults of SECTION tube: IW = YS = ZS = BY = BZ = BW = ")
     call expect_text(outcome%output, "rigid in shear: no DY, DZ")
+    call expect_status("run "//deck//" --quiet -o "//scratch("sections.h5"), 0, outcome)
   end subroutine test_defaults
 
   !> Corners of the rectangle, and N/A at all of them.

@@ -50,15 +50,20 @@ def draw_elastica(path, results, parts, tip):
         state = results.step_state(parts[part], step)
         colour = figures.PALE if step == 0 else figures.SHADES(k / (len(chosen) - 1))
         figures.draw_lines(left, shapes, state, view, colors=[colour], linewidths=1.4)
+        load = parts[part]["load_factor"][step - 1] if step else 0
+        place = view.flat(shapes.curves(state)[-1, -1])
+        left.annotate(f"{load:.2g}", place, (3, 2), textcoords="offset points", fontsize=7)
     figures.finish_view(left, view, "")
-    left.set(xlabel="x/L", ylabel="z/L", ylim=(-0.05, 0.9))
-    for values, reference, name, colour in zip(tip, ELASTICA[:, 1:].T, ("w/L", "u/L", "θ (rad)"),
+    left.set(xlabel="x/L", ylabel="z/L", ylim=(-0.05, 0.95), xlim=(-0.04, 1.12))
+    for values, reference, name, colour in zip(tip, ELASTICA[:, 1:].T, ("w/L", "u/L", "θ"),
                                                figures.COLOURS):
-        right.plot([0, *ELASTICA[:, 0]], [0, *values], color=colour, label=name)
+        right.plot([0, *ELASTICA[:, 0]], [0, *values], color=colour)
         right.plot(ELASTICA[:, 0], reference, "o", color=colour, mfc="white", mew=0.9)
-    right.plot([], [], "o", color=figures.GREY, mfc="white", label="closed form")
-    right.set(xlabel="PL²/EI", ylabel="tip", xlim=(0, 10.2), ylim=(0, 1.55))
-    right.legend(loc="upper left", bbox_to_anchor=(0, 0.9), ncols=1)
+        right.text(10.2, values[-1], name, color=colour, fontsize=8, va="center")
+    right.plot([], [], color=figures.GREY, label="spar")
+    right.plot([], [], "o", color=figures.GREY, mfc="white", mew=0.9, label="closed form")
+    right.set(xlabel="PL²/EI", xlim=(0, 11.2), ylim=(0, 1.6))
+    right.legend(loc="upper left", ncols=2)
     figures.save(figure, path)
 
 
@@ -73,13 +78,14 @@ def roll_up(bench):
         tip = results.stacked(results.analysis(), "nodes/displacement")[:, results.node(2)]
         computed.append(np.linalg.norm(tip[4] - [-1, 0, 2 / np.pi]) * np.pi / 2)
         circle.append(np.linalg.norm(tip[9] - [-1, 0, 0]))
-        law.append((np.pi / n)**4 / 1920)
+        half = np.pi / n / 2
+        law.append(1 - (1 - half**2 / 6) * half / np.sin(half))
     problem.text("`tests/cases/static/rollup.deck`, n elements, ten steps to a full circle, which"
                  " closes to 1e-9 of the length by symmetry. The half circle shows what the element"
-                 " leaves out: bent by an angle a it takes 1 - a²/24 for the chord over the arc,"
-                 " sin(a/2)/(a/2): a⁴/1920 too short. The distance of the tip from its place, over"
-                 " the tip's height 2L/π, follows that law.")
-    problem.compare([(f"half circle, n = {n}", Number(x, ref, 0.01, 3))
+                 " leaves out: bent by an angle a it takes 1 - a²/24 for the chord over the arc, not"
+                 " sin(a/2)/(a/2), which is a⁴/1920 too short. The distance of the tip from its"
+                 " place, over the tip's height 2L/π, has to follow that law (reference).")
+    problem.compare([(f"half circle, n = {n}", Number(x, ref, 1e-3, 4))
                      for n, x, ref in zip(meshes, computed, law)])
     problem.numbers += [Number(1 + x, 1, 1e-9) for x in circle]
     problem.picture("rollup.png", "Roll-up: error of the half circle over the number of elements",
@@ -121,17 +127,25 @@ def reissner(bench):
                       "exact boundary-value problem of Reissner's beam; Nachbagauer, Pechstein,"
                       " Irschik and Gerstmayr 2011", "exact solution")
     deck = "tests/cases/static/reissner.deck"
-    problem.text(f"`{deck}`: L = 2 m, h = 0.5 m, 40 elements, shear on. Exudyn prints for 1024"
-                 " elements u = 0.15097102, w = 0.71056836 m at the large load.")
+    problem.text(
+        f"`{deck}`: L = 2 m, h = 0.5 m, 40 elements, shear on. Exudyn prints for 1024 elements"
+        " u = 0.15097102, w = 0.71056836 m at the large load.",
+        "What remains does not vanish with the mesh: the element takes the axial force along the"
+        " tangent of the axis (Engesser), Reissner's beam along the normal of the section"
+        " (Haringx). To second order in the load this makes u larger by γ²L/2 - F²L/(GA EA), with"
+        " γ = F/GA; the last line has that added to the reference.")
     rows = []
-    for f, wanted, allowed in (("62.5e6", (0.15097114, 0.71056860, 0.52017317), 1e-4),
-                               ("62500", (1.8884916e-7, 8.0990325e-4, 5.7971007e-4), 1e-4)):
+    for f, wanted in (("62.5e6", (0.15097114, 0.71056860, 0.52017317)),
+                      ("62500", (1.8884916e-7, 8.0990325e-4, 5.7971007e-4))):
         results = bench.run(deck, f=f)
         last = results.analysis()
-        for name, path, ref in zip(("u (m)", "w (m)", "θ (rad)"),
-                                   ("-nodes/2/X", "nodes/2/Z", "nodes/2/angle"), wanted):
-            load = "62.5 MN" if f == "62.5e6" else "62.5 kN"
-            rows.append((f"{name}, {load}", Number(results.series(last, path)[-1], ref, allowed)))
+        load = "62.5 MN" if f == "62.5e6" else "62.5 kN"
+        got = [results.series(last, path)[-1]
+               for path in ("-nodes/2/X", "nodes/2/Z", "nodes/2/angle")]
+        rows += [(f"{name}, {load}", Number(x, ref, 1e-3))
+                 for name, x, ref in zip(("u (m)", "w (m)", "θ (rad)"), got, wanted)]
+    more = 2 * 62500**2 / 3382352941 * (1 / (2 * 3382352941) - 1 / 10.35e9)
+    rows.append(("u (m), 62.5 kN, Engesser", Number(got[0], wanted[0] + more, 1e-5)))
     problem.compare(rows)
     return problem
 
@@ -200,14 +214,15 @@ def small_channel(bench):
                       "closed form")
     deck = "tests/cases/static/channel.deck"
     problem.text(f"`{deck}` with f = 1e-6 kN, z = 0, shear on: the paper's Fig. 11. The load passes"
-                 " 3.622 cm beside the shear centre.")
+                 " 3.622 cm beside the shear centre. The closed form has neither shear of warping nor"
+                 " its coupling with bending.")
     results = bench.run(deck, f="1e-6", z=0, shear="ON")
     group = results.analysis()
+    euler = results.stacked(group, "nodes/euler")[0, results.node(2)]
     problem.compare([
         ("deflection of the shear centre per kN (cm)",
-         Number(-1e6 * results.series(group, "markers/S/Z")[0], 1.4436183, 1e-4)),
-        ("twist per kN (rad)",
-         Number(1e6 * results.series(group, "nodes/2/angle")[0], 0.010434249, 2e-3))])
+         Number(-1e6 * results.series(group, "markers/S/Z")[0], 1.4436183, 1e-3)),
+        ("twist per kN (rad)", Number(-2e6 * euler[1], 0.010434249, 1e-3))])
     return problem
 
 
