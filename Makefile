@@ -15,7 +15,7 @@ CHECK   = -O1 -fcheck=all,no-array-temps -fsanitize=address,undefined \
 
 all: $(B)/spar  ## build the program (default)
 
-.PHONY: all programs setup venv demo test check-build coverage lint bench install clean help FORCE
+.PHONY: all programs setup venv demo test check-build coverage lint bench docs install clean help FORCE
 .DELETE_ON_ERROR:
 .SUFFIXES:
 Q = $(if $(V),,@)
@@ -141,6 +141,9 @@ lint: venv  ## strict build, layers, fortitude, lengths, blanks
 	@$(MAKE) --no-print-directory B=$(B)$(if $(filter 1,$(WERROR)),,-lint) WERROR=1 programs
 	@tools/lint $(VENV)
 
+docs: $(B)/spar  ## write docs/manual.md from the keyword table
+	@tools/manual $(B)/spar >$(B)/manual.md && cp $(B)/manual.md docs/manual.md
+
 bench: $(B)/spar $(B)/bench_tangent  ## measure speed and memory (tools/bench)
 	@SPAR_PROGRAM=$(B)/spar BENCH_TANGENT=$(B)/bench_tangent tools/bench
 
@@ -151,7 +154,8 @@ install: DIR = $(DESTDIR)$(PREFIX)
 install: $(B)/spar  ## install under PREFIX=/usr/local, or under DESTDIR before that
 	install -d $(DIR)/bin $(DIR)/share/spar $(DIR)/share/doc/spar $(DIR)/share/man/man1
 	install -m 755 $(B)/spar $(DIR)/bin/spar
-	install -m 644 LICENSE $(wildcard README.md CHANGELOG.md docs/*.md) $(DIR)/share/doc/spar
+	install -m 644 LICENSE README.md CHANGELOG.md \
+	  $(filter-out docs/manual_%,$(wildcard docs/*.md)) $(DIR)/share/doc/spar
 	$(if $(wildcard docs/spar.1),install -m 644 docs/spar.1 $(DIR)/share/man/man1/spar.1)
 	$(if $(wildcard decks/*),cp -R decks $(DIR)/share/spar/)
 

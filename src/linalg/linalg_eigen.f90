@@ -22,6 +22,7 @@ module linalg_eigen
 
   !> Coordinates in Q up to which the dense reduction is used.
   integer, parameter, public :: default_dense_pairs = 200
+  integer, parameter :: most_dense = 2000
 
   !> A, Q: lower triangles by entry. The unknowns of the factorized matrix are the coordinates,
   !> then the multipliers.
@@ -65,7 +66,7 @@ contains
     active = coordinates_of_q(pencil)
     if (size(active) <= pencil%dense_limit) then
       call factor_inverse(solver, pencil, active, factor, error)
-    else if (2*pencil%coordinates - pencil%equations <= pencil%dense_limit) then
+    else if (few_freedoms(pencil, maxval(wanted))) then
       active = [(k, k=1, pencil%coordinates)]
       call null_basis(solver, pencil, factor, error)
     end if
@@ -82,6 +83,17 @@ contains
       call find_sparse(solver, pencil, 2, wanted(2), scale, pairs, error)
     end if
   end subroutine find_pairs
+
+  !> Whether a basis of all motions is apt: there are few, or a good part of all pairs is wanted.
+  pure logical function few_freedoms(pencil, wanted)
+    type(pencil_t), intent(in) :: pencil
+    integer, intent(in) :: wanted
+    integer :: freedoms
+
+    freedoms = 2*pencil%coordinates - pencil%equations
+    few_freedoms = freedoms <= pencil%dense_limit .or. &
+                   (freedoms <= most_dense .and. 3*wanted > freedoms)
+  end function few_freedoms
 
   !> Coordinates with entries in Q.
   pure function coordinates_of_q(pencil) result(active)

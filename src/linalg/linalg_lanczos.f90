@@ -59,10 +59,11 @@ contains
     real(wp), allocatable :: resid(:), workd(:), workl(:)
     logical, allocatable :: select(:)
     real(wp) :: y(equations)
-    integer :: ncv, ido, info, iparam(11), ipntr(11)
+    integer :: nev, ncv, ido, info, iparam(11), ipntr(11)
 
-    ncv = min(n, max(2*wanted + 1, 20))
-    allocate (d(wanted), v(n, ncv), workd(3*n), workl(ncv*(ncv + 8)), select(ncv))
+    nev = min(wanted, n - 1)
+    ncv = min(n, max(2*nev + 1, 20))
+    allocate (d(nev), v(n, ncv), workd(3*n), workl(ncv*(ncv + 8)), select(ncv))
     found = 0
     call apply(solver, q, start_vector(n, 1), y, error)
     if (allocated(error)) return
@@ -76,7 +77,7 @@ contains
     ido = 0
     info = 1
     do
-      call dsaupd(ido, "G", n, "LA", wanted, lanczos_tolerance, resid, ncv, v, n, iparam, ipntr, &
+      call dsaupd(ido, "G", n, "LA", nev, lanczos_tolerance, resid, ncv, v, n, iparam, ipntr, &
                   workd, workl, size(workl), info)
       if (abs(ido) /= 1 .and. ido /= 2) exit
       call answer(workd(ipntr(1):ipntr(1) + n - 1), workd(ipntr(2):ipntr(2) + n - 1))
@@ -85,7 +86,7 @@ contains
     if (info < 0 .or. info > 2) call fail(error, exit_solve, "dsaupd: info = "//to_text(info))
     found = iparam(5)
     if (allocated(error) .or. found == 0) return
-    call dseupd(.true., "A", select, d, v, n, 0.0_wp, "G", n, "LA", wanted, lanczos_tolerance, &
+    call dseupd(.true., "A", select, d, v, n, 0.0_wp, "G", n, "LA", nev, lanczos_tolerance, &
                 resid, ncv, v, n, iparam, ipntr, workd, workl, size(workl), info)
     if (info /= 0) call fail(error, exit_solve, "dseupd: info = "//to_text(info))
     d(:found) = 1/d(:found)

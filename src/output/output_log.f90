@@ -259,8 +259,10 @@ contains
 
     call mode_lines(modes_found, line)
     do i = 1, size(line)
+      if (i > most_rows .and. self%level /= log_verbose) exit
       call say(self, line(i)%s)
     end do
+    if (i <= size(line)) call say(self, "   ... and "//plural(size(line) - i + 1, "mode")//" more")
     self%summary(self%analyses)%modes = modes_found%modes
   end subroutine log_modes
 

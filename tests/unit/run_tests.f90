@@ -25,6 +25,7 @@ program run_tests
   use test_program, only: run_program_tests
   use test_deck_sections, only: run_deck_sections_tests
   use test_section_command, only: run_section_command_tests
+  use test_manual, only: run_manual_tests
   implicit none
 
   call run_linalg_tests()
@@ -52,5 +53,6 @@ program run_tests
   call run_program_tests()
   call run_deck_sections_tests()
   call run_section_command_tests()
+  call run_manual_tests()
   call finish()
 end program run_tests
