@@ -15,7 +15,8 @@ CHECK   = -O1 -fcheck=all,no-array-temps -fsanitize=address,undefined \
 
 all: $(B)/spar  ## build the program (default)
 
-.PHONY: all programs setup venv demo test check-build coverage lint bench docs install clean help FORCE
+.PHONY: all programs setup venv demo test check-build coverage lint bench docs validation \
+        check-validation install clean help FORCE
 .DELETE_ON_ERROR:
 .SUFFIXES:
 Q = $(if $(V),,@)
@@ -137,12 +138,18 @@ coverage:  ## the same tests, then the share of lines executed in each source fi
 	    printf "%6.1f %% of %4d lines  in all\n", 100*hit/(total ? total : 1), total }'
 
 # Warnings of every file have to show: without WERROR=1 the strict build has a folder of its own.
-lint: venv  ## strict build, layers, fortitude, lengths, blanks
+lint: $(VENV)/ready  ## strict build, layers, fortitude, lengths, blanks
 	@$(MAKE) --no-print-directory B=$(B)$(if $(filter 1,$(WERROR)),,-lint) WERROR=1 programs
 	@tools/lint $(VENV)
 
 docs: $(B)/spar  ## write docs/manual.md from the keyword table
 	@tools/manual $(B)/spar >$(B)/manual.md && cp $(B)/manual.md docs/manual.md
+
+validation: $(B)/spar $(VENV)/plots  ## run the validation problems, write docs/validation.md
+	@SPAR_PROGRAM=$(B)/spar $(VENV)/bin/python3 tools/validation.py
+
+check-validation: $(B)/spar $(VENV)/ready  ## the same runs against the numbers of that page
+	@SPAR_PROGRAM=$(B)/spar $(VENV)/bin/python3 tools/validation.py --check
 
 bench: $(B)/spar $(B)/bench_tangent  ## measure speed and memory (tools/bench)
 	@SPAR_PROGRAM=$(B)/spar BENCH_TANGENT=$(B)/bench_tangent tools/bench
@@ -162,10 +169,13 @@ install: $(B)/spar  ## install under PREFIX=/usr/local, or under DESTDIR before 
 setup: $(CONFIG)  ## find or install compiler and libraries
 	@cat $(CONFIG)
 
-venv: $(VENV)/ready  ## Python environment of the developers' tools
+venv: $(VENV)/ready $(VENV)/plots  ## Python environment of the developers' tools
 
 $(VENV)/ready: tools/setup
 	@tools/setup venv $(VENV)
+
+$(VENV)/plots: $(VENV)/ready
+	@tools/setup plots $(VENV)
 
 clean:  ## remove everything built
 	rm -rf $(B) $(B)-check $(B)-coverage $(B)-lint

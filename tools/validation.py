@@ -13,7 +13,6 @@ import os
 import re
 import sys
 import tempfile
-from pathlib import Path
 
 from problems import buckling, channel, frequencies, paths, static
 from problems.kit import ROOT, Bench, short
@@ -37,10 +36,10 @@ An error is relative to the reference, (spar - reference)/reference. References 
   discretization error remains.
 
 Element options are the defaults (SECOND CONSISTENT, MASS CONSISTENT) unless said. JONKER is the
-element as the paper prints it: J. B. Jonker, "Three-dimensional beam element for pre- and
-post-buckling analysis of thin-walled beams in multibody systems".
+element as the paper prints it: J. B. Jonker, "Implementation of Shear Deformable Thin-Walled Beam
+Element for Flexible Multibody Dynamics".
 
-| problem | reference | error nearest its limit | allowed |
+| problem | reference | error nearest its limit | allowed error |
 |---|---|---|---|
 """
 
@@ -108,10 +107,11 @@ def shrink(path):
 
 def draw_all(problems):
     """The pictures of the problems."""
+    from problems import pictures
     for problem in problems:
-        for name, draw in problem.pictures:
+        for name, drawing, data in problem.pictures:
             path = ROOT / "docs" / "images" / name
-            draw(path)
+            getattr(pictures, drawing)(path, *data)
             shrink(path)
 
 

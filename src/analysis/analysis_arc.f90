@@ -116,7 +116,8 @@ contains
     do
       path%control%total = 0
       if (path%watch%at_branch) then
-        call lean_into_mode(system, path%watch%point, path%control%arc, level, iterate, path%control)
+        call lean_into_mode(system, path%watch%point, path%control%arc, level, iterate, &
+                            path%control)
       else if (path%control%kind == control_load) then
         level(analysis%pattern) = safe%level(analysis%pattern) + path%first_rise
       end if

@@ -29,7 +29,7 @@ module analysis_buckling
 contains
 
   !> Multipliers of the analysis' pattern from the state of `iterate` under the patterns' `level`.
-  subroutine run_buckling(model, system, solver, analysis, level, iterate, recorder, error)
+  subroutine run_buckling(model, system, solver, analysis, level, iterate, recorder, modes, error)
     type(model_t), intent(in) :: model
     type(system_t), intent(in) :: system
     type(solver_t), intent(inout) :: solver
@@ -37,6 +37,7 @@ contains
     real(wp), intent(in) :: level(:)
     type(iterate_t), intent(inout) :: iterate
     class(recorder_t), intent(inout) :: recorder
+    type(modes_t), intent(out) :: modes
     type(error_t), allocatable, intent(out) :: error
     type(solver_t) :: own
     type(half_t) :: half
@@ -57,13 +58,14 @@ contains
     pencil%q = -fold(half, geometric)
     if (system%pattern%symmetric) then
       call find_multipliers(model, system, solver, pencil, analysis, level, iterate, recorder, &
-                            error)
+                            modes, error)
       return
     end if
     if (.not. is_conservative(system, iterate)) call recorder%remark("warning: "//symmetric_part)
     call own%prepare(pencil%equations, half%row, half%column, .true., error)
     if (.not. allocated(error)) then
-      call find_multipliers(model, system, own, pencil, analysis, level, iterate, recorder, error)
+      call find_multipliers(model, system, own, pencil, analysis, level, iterate, recorder, modes, &
+                            error)
     end if
     call own%free()
   end subroutine run_buckling
@@ -112,7 +114,7 @@ contains
 
   !> Solve and record, the multipliers in rising order.
   subroutine find_multipliers(model, system, solver, pencil, analysis, level, iterate, recorder, &
-                              error)
+                              modes, error)
     type(model_t), intent(in) :: model
     type(system_t), intent(in) :: system
     type(solver_t), intent(inout) :: solver
@@ -121,9 +123,9 @@ contains
     real(wp), intent(in) :: level(:)
     type(iterate_t), intent(in) :: iterate
     class(recorder_t), intent(inout) :: recorder
+    type(modes_t), intent(out) :: modes
     type(error_t), allocatable, intent(out) :: error
     type(pairs_t) :: pairs
-    type(modes_t) :: modes
     integer :: available(2), kept(2), k
 
     call count_multipliers(solver, pencil, available, error)

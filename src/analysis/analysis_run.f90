@@ -11,6 +11,8 @@ module analysis_run
   use system_names, only: coordinate_name, strain_name
   use analysis_static, only: run_static
   use analysis_arc, only: run_arc
+  use mode_results, only: modes_t
+  use geometric_imperfection, only: add_imperfections
   use analysis_buckling, only: run_buckling
   use analysis_eigen, only: run_eigen
   use recorder, only: recorder_t
@@ -30,45 +32,72 @@ contains
     type(solver_t) :: solver
     type(iterate_t) :: iterate
 
-    call build_system(model, system)
-    call warn_of_redundant(model, system, recorder, error)
-    if (.not. allocated(error)) then
-      call find_system_pattern(system)
-      call new_iterate(system, iterate)
-      call solver%prepare(system%equations(), system%pattern%row, system%pattern%column, &
-                          system%pattern%symmetric, error)
-    end if
-    if (.not. allocated(error) .and. any(model%analysis%kind /= analysis_eigen)) then
-      call refuse_free_motion(model, system, solver, iterate, error)
-    end if
+    call set_up(model, system, solver, iterate, recorder, error)
     if (.not. allocated(error)) call run_in_order(model, system, solver, iterate, recorder, error)
     call solver%free()
     call system%free()
   end subroutine run_analyses
 
+  !> The system of a model, ready for its first analysis.
+  subroutine set_up(model, system, solver, iterate, recorder, error)
+    type(model_t), intent(in) :: model
+    type(system_t), intent(out) :: system
+    type(solver_t), intent(inout) :: solver
+    type(iterate_t), intent(out) :: iterate
+    class(recorder_t), intent(inout) :: recorder
+    type(error_t), allocatable, intent(out) :: error
+
+    call build_system(model, system)
+    call warn_of_redundant(model, system, recorder, error)
+    if (allocated(error)) return
+    call find_system_pattern(system)
+    call new_iterate(system, iterate)
+    call solver%prepare(system%equations(), system%pattern%row, system%pattern%column, &
+                        system%pattern%symmetric, error)
+    if (allocated(error) .or. all(model%analysis%kind == analysis_eigen)) return
+    call refuse_free_motion(model, system, solver, iterate, error)
+  end subroutine set_up
+
   subroutine run_in_order(model, system, solver, iterate, recorder, error)
     type(model_t), intent(in) :: model
-    type(system_t), intent(in) :: system
+    type(system_t), intent(inout) :: system
     type(solver_t), intent(inout) :: solver
     type(iterate_t), intent(inout) :: iterate
     class(recorder_t), intent(inout) :: recorder
     type(error_t), allocatable, intent(out) :: error
     type(error_t), allocatable :: second
+    type(model_t) :: shaped
+    type(modes_t) :: modes
     real(wp) :: level(size(model%pattern))
     integer :: i
 
     level = 0
+    if (size(model%imperfection) > 0) shaped = model
     do i = 1, size(model%analysis)
+      if (any(model%imperfection%analysis == i)) then
+        call add_imperfections(i, modes, shaped, error)
+        if (allocated(error)) return
+        call solver%free()
+        call system%free()
+        call set_up(shaped, system, solver, iterate, recorder, error)
+        if (allocated(error)) return
+        level = 0
+      end if
       call recorder%begin(i, model%analysis(i), error)
       if (allocated(error)) return
-      call run_one(model, system, solver, model%analysis(i), level, iterate, recorder, error)
+      if (size(model%imperfection) > 0) then
+        call run_one(shaped, system, solver, model%analysis(i), level, iterate, recorder, modes, error)
+      else
+        call run_one(model, system, solver, model%analysis(i), level, iterate, recorder, modes, error)
+      end if
       call recorder%finish(.not. allocated(error), second)
       if (.not. allocated(error) .and. allocated(second)) call move_alloc(second, error)
       if (allocated(error)) return
     end do
   end subroutine run_in_order
 
-  subroutine run_one(model, system, solver, analysis, level, iterate, recorder, error)
+  !> Run one analysis; BUCKLING leaves its modes.
+  subroutine run_one(model, system, solver, analysis, level, iterate, recorder, modes, error)
     type(model_t), intent(in) :: model
     type(system_t), intent(in) :: system
     type(solver_t), intent(inout) :: solver
@@ -76,11 +105,12 @@ contains
     real(wp), intent(inout) :: level(:)
     type(iterate_t), intent(inout) :: iterate
     class(recorder_t), intent(inout) :: recorder
+    type(modes_t), intent(inout) :: modes
     type(error_t), allocatable, intent(out) :: error
 
     select case (analysis%kind)
     case (analysis_buckling)
-      call run_buckling(model, system, solver, analysis, level, iterate, recorder, error)
+      call run_buckling(model, system, solver, analysis, level, iterate, recorder, modes, error)
     case (analysis_eigen)
       call run_eigen(model, system, solver, analysis, level, iterate, recorder, error)
     case default

@@ -32,6 +32,9 @@ module recorder
   end type step_t
 
   integer, parameter, public :: critical_limit = 1, critical_bifurcation = 2
+  character(len=11), parameter, public :: critical_name(2) = ["limit point", "bifurcation"]
+
+  public :: critical_line
 
   !> A critical point of the path.
   type, public :: critical_t
@@ -130,12 +133,19 @@ contains
     class(recorder_t), intent(inout) :: self
     type(critical_t), intent(in) :: point
     type(error_t), allocatable, intent(out) :: error
-    character(len=*), parameter :: kind(2) = ["limit point", "bifurcation"]
 
-    call self%remark("step "//to_text(point%step)//": "//kind(point%kind)//" at load factor "// &
-                     to_text(point%factor, 8)//", unstable modes "//to_text(point%before)// &
-                     " -> "//to_text(point%behind))
+    call self%remark(critical_line(point))
     if (point%step < 0) call fail(error, exit_solve, "a critical point without a step")
   end subroutine critical_point
+
+  !> A critical point in one line.
+  function critical_line(point) result(line)
+    type(critical_t), intent(in) :: point
+    character(len=:), allocatable :: line
+
+    line = "step "//to_text(point%step)//": "//trim(critical_name(point%kind))//" at load factor "// &
+           to_text(point%factor, 8)//", unstable modes "//to_text(point%before)//" -> "// &
+           to_text(point%behind)
+  end function critical_line
 
 end module recorder

@@ -11,6 +11,7 @@ module deck_keywords
   use deck_element_cards, only: read_beamw, read_dyne, read_rlse, read_estiff, read_em
   use deck_load_cards, only: read_fix, read_marker, read_xf, read_delxf, read_gravity, &
                              read_static, read_buckling, read_eigen, read_iterstep
+  use deck_targets, only: read_imperfection
   implicit none
   private
 
@@ -261,6 +262,10 @@ contains
         "finds the multipliers of the loads given since the last STATIC, or of those it applied,"// &
         " at which the state becomes unstable: n nearest zero of each sign", &
         "XF 2 -1 0 0|BUCKLING MODES 2", "mode 8", read_buckling), &
+      keyword_t("IMPERFECTION", "load", "mode:count scale:L", "", &
+        "adds a mode of the last BUCKLING, by its row in the table of multipliers and with this "// &
+        "largest displacement, to the undeformed shape; the next analysis starts from there", &
+        "XF 2 -1 0 0|BUCKLING MODES 2|IMPERFECTION 1 0.01|STATIC", "", read_imperfection), &
       keyword_t("EIGEN", "analysis", "", "MODES n:count=10 | NAME name:word", &
         "finds the n lowest natural frequencies about the present state", &
         "EIGEN MODES 6", "mode 7", read_eigen), &

@@ -53,6 +53,7 @@ contains
         pattern(kind, block) = patterns
       end do
       pending = max(pending, pattern(:, block))
+      where (draft%model%imperfection%block == block) draft%model%imperfection%analysis = n + 1
       call add_analyses(draft, pending, block, patterns, analysis, n)
       if (analysis(n)%kind == analysis_static) pending = 0
       if (all(pending > 0)) pending(base) = 0

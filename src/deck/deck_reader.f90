@@ -87,6 +87,7 @@ contains
     call move_alloc(draft%model%pattern, model%pattern)
     call move_alloc(draft%model%analysis, model%analysis)
     call move_alloc(draft%model%setting, model%setting)
+    call move_alloc(draft%model%imperfection, model%imperfection)
   end subroutine move_model
 
   subroutine compile(table)

@@ -2,7 +2,8 @@
 module deck_targets
   use text, only: to_text
   use diagnostics, only: place_t
-  use model_data, only: target_t, analysis_t, control_load, control_displacement, control_arc
+  use model_data, only: target_t, analysis_t, imperfection_t, control_load, control_displacement, &
+                        control_arc, analysis_buckling
   use deck_card, only: card_t
   use deck_draft, only: draft_t, record_t, record_control, record_stop
   use deck_element_cards, only: add_record
@@ -12,7 +13,7 @@ module deck_targets
   implicit none
   private
 
-  public :: read_control, read_target, set_targets
+  public :: read_control, read_target, set_targets, read_imperfection
 
 contains
 
@@ -53,6 +54,34 @@ contains
     record%at_place = card%place(w + 1)
     call add_record(card, w + 1, draft, record)
   end subroutine read_target
+
+  !> IMPERFECTION mode scale
+  subroutine read_imperfection(card, draft)
+    type(card_t), intent(in) :: card
+    type(draft_t), intent(inout) :: draft
+    type(imperfection_t), allocatable :: more(:)
+    integer :: n, k
+
+    k = 0
+    if (draft%analyses > 0) then
+      k = findloc(draft%model%analysis(:draft%analyses)%kind, analysis_buckling, 1, back=.true.)
+    end if
+    if (k == 0) then
+      call draft%report%add_error(card%place(1), "IMPERFECTION needs a BUCKLING before it")
+      return
+    end if
+    if (card%whole(2) < 1 .or. card%whole(2) > 2*draft%model%analysis(k)%modes) then
+      call draft%report%add_error(card%place(2), "the number of a mode of BUCKLING expected")
+    end if
+    n = size(draft%model%imperfection)
+    allocate (more(n + 1))
+    more(:n) = draft%model%imperfection
+    more(n + 1)%mode = card%whole(2)
+    more(n + 1)%scale = card%number(3)
+    more(n + 1)%block = draft%block
+    more(n + 1)%place = card%place(1)
+    call move_alloc(more, draft%model%imperfection)
+  end subroutine read_imperfection
 
   !> Resolve them.
   subroutine set_targets(draft)

@@ -11,7 +11,7 @@ module model_data
   private
 
   public :: model_t, node_t, material_t, section_t, member_t, load_t, pattern_t, marker_t
-  public :: function_t, analysis_t, setting_t, target_t
+  public :: function_t, analysis_t, setting_t, target_t, imperfection_t
 
   !> Kinds of nodes; an id names up to one of each.
   integer, parameter, public :: translational = 1, rotational = 2, warping = 3
@@ -167,6 +167,15 @@ module model_data
     type(place_t) :: place
   end type analysis_t
 
+  !> A mode of the last BUCKLING to be added to the undeformed shape before an analysis.
+  type :: imperfection_t
+    integer :: mode = 0                       !< its row among the multipliers
+    real(wp) :: scale = 0.0_wp                !< largest displacement [L]
+    integer :: analysis = 0                   !< index of the analysis it stands before
+    integer :: block = 0                      !< of the deck's reader
+    type(place_t) :: place
+  end type imperfection_t
+
   !> A name defined by SET or -D, as text.
   type :: setting_t
     character(len=name_length) :: name = ""
@@ -186,6 +195,7 @@ module model_data
     type(pattern_t), allocatable :: pattern(:)
     type(analysis_t), allocatable :: analysis(:)
     type(setting_t), allocatable :: setting(:)
+    type(imperfection_t), allocatable :: imperfection(:)
     character(len=:), allocatable :: deck      !< the text as read, includes expanded
   end type model_t
 

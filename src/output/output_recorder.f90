@@ -3,7 +3,7 @@ module output_recorder
   use errors, only: error_t
   use model_data, only: model_t, analysis_t
   use system_results, only: results_t
-  use recorder, only: recorder_t, step_t, iteration_t
+  use recorder, only: recorder_t, step_t, iteration_t, critical_t, critical_line
   use mode_results, only: modes_t
   use output_results, only: result_file_t
   use output_log, only: run_log_t, log_normal
@@ -35,6 +35,7 @@ module output_recorder
     procedure :: remark => record_remark
     procedure :: step => record_step
     procedure :: modes => record_modes
+    procedure :: critical_point => record_critical
     procedure :: finish => record_finish
     procedure :: interrupted => ask_interrupted
   end type run_recorder_t
@@ -112,6 +113,15 @@ contains
     call self%file%modes(modes_found, error)
     if (.not. allocated(error)) call self%log%modes(modes_found)
   end subroutine record_modes
+
+  subroutine record_critical(self, point, error)
+    class(run_recorder_t), intent(inout) :: self
+    type(critical_t), intent(in) :: point
+    type(error_t), allocatable, intent(out) :: error
+
+    call self%remark(critical_line(point))
+    call self%file%critical_point(point, error)
+  end subroutine record_critical
 
   subroutine record_finish(self, complete, error)
     class(run_recorder_t), intent(inout) :: self

@@ -4,7 +4,7 @@ module output_results
   use errors, only: error_t, fail, exit_io
   use model_data, only: model_t, analysis_t, analysis_static, name_length, control_arc
   use program_version, only: program_name, version
-  use recorder, only: step_t
+  use recorder, only: step_t, critical_t, critical_name
   use mode_results, only: modes_t
   use system_results, only: results_t, result_modes
   use system_stress, only: stress_places, stress_parts
@@ -25,8 +25,8 @@ module output_results
   integer, parameter :: load_factor = 1, displacement = 2, euler = 3, warping = 4, reaction = 5, &
                         load = 6, strain = 7, stress = 8, force_p = 9, force_q = 10, &
                         residual = 11, increment = 12, constraint = 13, point_stress = 14, &
-                        reals = 14
-  integer, parameter :: step_number = 1, iterations = 2, cutbacks = 3, wholes = 3
+                        arc_length = 15, reals = 15
+  integer, parameter :: step_number = 1, iterations = 2, cutbacks = 3, unstable = 4, wholes = 4
 
   type :: result_file_t
     private
@@ -38,6 +38,7 @@ module output_results
     integer :: steps = 0                        !< kept so far, in all analyses
     character(len=:), allocatable :: group      !< of the present analysis
     logical :: stepping = .true.                !< it has steps, else modes
+    integer :: critical_points = 0              !< of the present analysis
     type(table_t) :: real_table(reals), whole_table(wholes)
     type(table_t), allocatable :: marker_table(:)
   contains
@@ -45,6 +46,7 @@ module output_results
     procedure :: begin => begin_analysis
     procedure :: step => keep_step
     procedure :: modes => keep_modes
+    procedure :: critical_point => keep_critical
     procedure :: finish => finish_analysis
     procedure :: close => close_results
   end type result_file_t
@@ -128,6 +130,7 @@ contains
     call self%file%group(self%group)
     call self%file%set_text(self%group, "kind", trim(kind_names(analysis%kind)))
     call self%file%set_number(self%group, "complete", 0)
+    self%critical_points = 0
     self%stepping = analysis%kind == analysis_static
     if (.not. self%stepping) return
     call start_steps(self, steps)
@@ -213,6 +216,10 @@ contains
       about_t("1", "step", "Newton iterations, those of cut-backs included"))
     call self%whole_table(cutbacks)%start_integers(self%file, group//"/cutbacks", steps, &
       about_t("1", "step", "times the increment was halved"))
+    call self%whole_table(unstable)%start_integers(self%file, group//"/unstable_modes", steps, &
+      about_t("1", "step", "unstable modes of the equilibrium; -1 where STABILITY is OFF"))
+    call self%real_table(arc_length)%start_reals(self%file, group//"/arc_length", steps, &
+      about_t("1", "step", "arc of the step, mean motion in model lengths and radians; 0 else"))
     call self%real_table(residual)%start_reals(self%file, group//"/residual", steps, &
       about_t("1", "step", "largest unbalanced force, relative to the forces"))
     call self%real_table(increment)%start_reals(self%file, group//"/increment", steps, &
@@ -243,6 +250,8 @@ contains
       call whole(step_number)%append(file, step%step)
       call whole(iterations)%append(file, step%iterations)
       call whole(cutbacks)%append(file, step%cutbacks)
+      call whole(unstable)%append(file, step%unstable)
+      call table(arc_length)%append(file, step%arc)
       call table(load_factor)%append(file, step%factor)
       call table(residual)%append(file, step%last%residual)
       call table(increment)%append(file, step%last%increment)
@@ -275,6 +284,34 @@ contains
     call self%file%flush(error)
     if (.not. allocated(error)) self%steps = self%steps + 1
   end subroutine keep_modes
+
+  !> Write a critical point, with its mode, and flush.
+  subroutine keep_critical(self, point, error)
+    class(result_file_t), intent(inout) :: self
+    type(critical_t), intent(in) :: point
+    type(error_t), allocatable, intent(out) :: error
+    character(len=:), allocatable :: group
+    character(len=4) :: number
+
+    if (self%critical_points == 0) call self%file%group(self%group//"/critical")
+    self%critical_points = self%critical_points + 1
+    write (number, "(i4.4)") self%critical_points
+    group = self%group//"/critical/"//number
+    call self%file%group(group)
+    call self%file%set_text(group, "kind", trim(critical_name(point%kind)))
+    call self%file%set_number(group, "step", point%step)
+    call self%file%set_number(group, "unstable_before", point%before)
+    call self%file%set_number(group, "unstable_behind", point%behind)
+    call self%file%write(group//"/load_factor", [point%factor], &
+      about_t("1", "point", "load factor of the critical point"))
+    call self%file%write(group//"/displacement", point%mode(1:3, :), &
+      about_t("L", "node; X Y Z", "displacement of the critical mode"))
+    call self%file%write(group//"/rotation", point%mode(4:6, :), &
+      about_t("1", "node; RX RY RZ", "small rotation of the critical mode, global axes"))
+    call self%file%write(group//"/warping", point%mode(7, :), &
+      about_t("L-1", "node", "warping coordinate of the critical mode"))
+    call self%file%flush(error)
+  end subroutine keep_critical
 
   !> Close the datasets of the analysis.
   subroutine finish_analysis(self, complete, error)

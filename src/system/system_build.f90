@@ -282,7 +282,7 @@ contains
 
     length = norm2(member%chord)
     s = 0
-    if (member%section > 0) then
+    if (member%section > 0 .and. .not. member%has_stiffness) then
       associate (c => model%section(member%section)%constants)
         s = c%zs*member%triad(:, 2) - c%ys*member%triad(:, 3)
       end associate
@@ -301,7 +301,7 @@ contains
   !> by the released angles, ay = rel5/l0, az = -rel3/l0 at p and opposite at q.
   pure subroutine lean_with_releases(member, coordinate, load)
     type(member_t), intent(in) :: member
-    integer, intent(in) :: coordinate(:)  !< of its element: 14 of the nodes, then the released modes
+    integer, intent(in) :: coordinate(:)  !< its element: 14 of the nodes, then the releases
     type(dead_load_t), intent(inout) :: load(2)
     integer :: e, i, mode
 
@@ -342,7 +342,8 @@ contains
   end function point_load
 
   !> Sparsity with a block for each element, coordinates then multipliers, and for each load, the
-  !> rotation and alpha of its node and the releases it leans by. Dead moments make the tangent unsymmetric (theory 6).
+  !> rotation and alpha of its node and the releases it leans by. Dead moments make the tangent
+  !> unsymmetric (theory 6).
   pure subroutine find_system_pattern(system)
     type(system_t), intent(inout) :: system
     integer, allocatable :: start(:), member(:)

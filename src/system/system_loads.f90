@@ -128,8 +128,8 @@ contains
     end do
   end subroutine dead_load
 
-  !> The arm, turned by the released bending strains at its end, and its first and second derivatives
-  !> to them: cos(t) arm + sin(t)/t (a1 axes1 + a2 axes2), t**2 = a1**2 + a2**2.
+  !> The arm, turned by the released bending strains at its end, and its first and second
+  !> derivatives to them: cos(t) arm + sin(t)/t (a1 axes1 + a2 axes2), t**2 = a1**2 + a2**2.
   pure subroutine leaning_arm(load, state, arm, slope, bend)
     type(dead_load_t), intent(in) :: load
     type(state_t), intent(in) :: state

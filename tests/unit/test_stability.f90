@@ -6,6 +6,8 @@ module test_stability
   use model_data, only: model_t
   use memory_recorder, only: memory_t, run_deck
   use recorder, only: critical_bifurcation
+  use program_runs, only: run_spar, scratch, outcome_t
+  use result_reader, only: get_reals, get_integers, get_text
   implicit none
   private
 
@@ -19,6 +21,8 @@ contains
     call run("stability: L bracket (STB-15)", bracket)
     call run("stability: a critical mode is that of the theory", mode_shape)
     call run("stability: a column buckles and is followed to 120 degrees", column)
+    call run("stability: an imperfect column (IMPERFECTION)", imperfect)
+    call run("stability: critical points are kept in the result file", result_file)
   end subroutine run_stability_tests
 
   !> The first critical point of a deck over its reference, and that it is a bifurcation.
@@ -108,5 +112,50 @@ contains
                         "sideways displacement of the tip")
     end associate
   end subroutine column
+
+  !> A column whose shape is its first mode, amplitude a, deflects by a f/(1 - f) at the factor f of
+  !> Euler's load (Timoshenko & Gere 1.12). Ten straight elements in place of the curve cost
+  !> (pi/20)**2/12 = 0.2 %, finite slopes (w/L)**2 and less.
+  subroutine imperfect()
+    type(memory_t) :: memory
+    type(model_t) :: model
+    type(error_t), allocatable :: error
+    integer :: i, tip
+
+    call run_deck("../path/imperfect", memory, model, error)
+    call expect(.not. allocated(error), "no error")
+    if (allocated(error) .or. memory%steps /= 9) return
+    tip = findloc(model%node%id == 2, .true., 1)
+    do i = 1, 9
+      associate (f => memory%record(i)%factor)
+        call expect_close(abs(memory%results(i)%displacement(1, tip))/(1.0e-3_wp*f/(1 - f)), 1.0_wp, &
+                          4.0e-3_wp, "deflection")
+      end associate
+    end do
+  end subroutine imperfect
+
+  !> Williams' toggle as a user runs it: limit points with load factor and mode.
+  subroutine result_file()
+    character(len=*), parameter :: group = "/analysis/01_static/critical/0001"
+    character(len=:), allocatable :: path, kind
+    type(outcome_t) :: outcome
+    real(wp), allocatable :: factor(:), mode(:)
+    integer, allocatable :: extents(:), unstable(:)
+
+    path = scratch("critical.h5")
+    call run_spar("run tests/cases/path/williams.deck -o "//path, outcome)
+    call expect(outcome%status == 0, "the run ends well")
+    call get_reals(path, group//"/load_factor", factor, extents)
+    call expect(size(factor) == 1, "a critical point")
+    if (size(factor) /= 1) return
+    call expect_close(factor/33.86123304140249_wp, [1.0_wp], 3.0e-3_wp, "the first limit load")
+    call get_text(path, group, "kind", kind)
+    call expect(kind == "limit point", "a limit point, not '"//kind//"'")
+    call get_reals(path, group//"/displacement", mode, extents)
+    call expect(all(extents == [17, 3]), "a mode for 17 nodes")
+    call expect(maxloc(abs(mode), 1) == 6, "the apex, node 2, moves most and vertically")
+    call get_integers(path, "/analysis/01_static/convergence/unstable_modes", unstable, extents)
+    call expect(all(unstable == [0, 0, 1, 0, 0, 0, 0]), "unstable modes of each step")
+  end subroutine result_file
 
 end module test_stability

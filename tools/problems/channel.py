@@ -3,13 +3,9 @@ import csv
 
 import numpy as np
 
-from spar_tools import figures
-from spar_tools.shapes import Shapes
-
 from .kit import ROOT, Number, Problem
 
 DECK = "tests/cases/path/channel.deck"
-OUTLINE = [(7.0442, 14.2), (-2.4558, 14.2), (-2.4558, -14.2), (7.0442, -14.2)]
 PLACES = [9, 30, 60, 90, 150, 210, 300]  # -w(D) in cm
 # F at D by an independent program, and by shells (thin-wall torsion constant).
 INDEPENDENT = {("CONSISTENT", 5): [5.8495, 8.8225, 9.5859, 10.4687, 12.7715, 15.8421, 21.8204],
@@ -32,7 +28,8 @@ def solve(bench, second="CONSISTENT", n=10, z=14.2, steps=100):
     """Results and F over -w(D), v(D) of a path to 300 cm, from the unloaded state."""
     results = bench.run(DECK, second=second, n=n, z=z, steps=steps)
     group = results.analysis()
-    series = [results.series(group, path) for path in ("load_factor", "-markers/D/Z", "markers/D/Y")]
+    series = [results.series(group, path)
+              for path in ("load_factor", "-markers/D/Z", "markers/D/Y")]
     return results, [np.concatenate([[0], values]) for values in series]
 
 
@@ -76,62 +73,10 @@ def post_buckling(bench):
                  f" changes by {100 * change:.1f} % at most); what they lack and what matters is"
                  " the Wagner constant βz of the section.")
     problem.picture("channel.png", "Channel cantilever: deformed shapes to scale, and Fig. 12",
-                    lambda path: draw_channel(path, paths, curve))
+                    "channel", paths, curve)
     problem.picture("channel_fig12.png", "Fig. 12: vertical and lateral displacement of D",
-                    lambda path: draw_fig_12(path, paths, curve))
+                    "fig_12", paths, curve)
     return problem
-
-
-def draw_channel(path, paths, curve):
-    """The picture of the README: frames with their section, load over deflection."""
-    figure, (left, right) = figures.new_figure(7.4, 2.9, 2, width_ratios=[1.35, 1])
-    results, values = paths["CONSISTENT", 10]
-    group = results.analysis()
-    shapes = Shapes(results, points=7)
-    view = figures.View("-115,16")
-    frames = {0: figures.PALE, 20: "#b5cfe6", 50: "#6f9fcb", 100: "#1f5a96"}
-    for step, colour in frames.items():
-        state = results.step_state(group, step)
-        figures.draw_swept(left, shapes, state, view, OUTLINE, colour)
-        if step:
-            tip = view.flat(shapes.curves(state)[-1, -1])
-            left.annotate(f"{values[0][step]:.1f} kN", tip, (9, -3 if step < 100 else 5),
-                          textcoords="offset points", fontsize=8)
-    figures.finish_view(left, view, "cm", 200)
-    draw_curves(right, paths, curve, 1, "-w_D")
-    for step, colour in list(frames.items())[1:]:
-        right.plot(values[1][step], values[0][step], "o", ms=7, zorder=5, color=colour,
-                   mec=figures.INK, mew=0.7)
-    right.set(xlabel="deflection of D, −w (cm)", ylabel="force at D (kN)", xlim=(0, 310),
-              ylim=(0, 27))
-    right.legend(loc="lower right")
-    figures.save(figure, path)
-
-
-def draw_fig_12(path, paths, curve):
-    """F over -w(D) for loads at D and E, and F over v(D)."""
-    figure, (left, right) = figures.new_figure(7.0, 3.2, 2, width_ratios=[1.2, 1])
-    draw_curves(left, paths, curve, 1, "-w_D")
-    _, at_e = paths["E"]
-    left.plot(at_e[1], at_e[0], color=figures.COLOURS[2], label="spar, load at E")
-    left.set(xlabel="−w of D (cm)", ylabel="F (kN)", xlim=(0, 310), ylim=(0, 27))
-    left.legend(loc="lower right")
-    draw_curves(right, paths, curve, 2, "v_D")
-    right.set(xlabel="v of D (cm)", ylabel="F (kN)", xlim=(0, None), ylim=(0, 27))
-    figures.save(figure, path)
-
-
-def draw_curves(axes, paths, curve, column, name):
-    """CONSISTENT and JONKER over the shell."""
-    sign = -1 if name.startswith("-") else 1
-    inside = -curve["w_D"] <= 302
-    axes.plot([0, *(sign * curve[name.lstrip("-")][inside])], [0, *curve["F"][inside]], "o",
-              color=figures.GREY, mfc="white", mew=0.8, ms=3.5, label="shell, 120 eight-node elements")
-    for (second, n), colour, style in ((("CONSISTENT", 10), figures.COLOURS[0], "-"),
-                                       (("JONKER", 40), figures.COLOURS[1], "--")):
-        _, values = paths[second, n]
-        label = "spar, 10 beam elements" if n == 10 else "as printed in the paper, 40"
-        axes.plot(values[column], values[0], style, color=colour, label=label)
 
 
 PROBLEMS = [post_buckling]

@@ -1,4 +1,7 @@
-"""Columns on forks in closed form: a sine of n half waves turns the beam equations into algebra."""
+"""Closed forms.
+
+Columns on forks: a sine of n half waves turns the equations of the beam into algebra.
+"""
 import numpy as np
 
 # The column of the paper's tables 1 to 3 in kN, mm; density in kN s2/mm4 (not printed there).
@@ -72,3 +75,14 @@ def bending_eigenvalue(column, shear, waves, rotary):
     stiff = c["G"] * shear["DY"]
     stiffness = np.array([[stiff * k**2, -stiff * k], [-stiff * k, stiff + rigidity * k**2]])
     return eigenvalues(stiffness, np.diag([c["RHO"] * c["A"], inertia]))[0]
+
+
+def elliptic(k):
+    """Complete elliptic integrals K and E of the modulus k, by the arithmetic-geometric mean."""
+    a, b, c, total, power = 1.0, np.sqrt(1 - k * k), k, k * k / 2, 0.5
+    while abs(c) > 1e-16:
+        a, b, c = (a + b) / 2, np.sqrt(a * b), (a - b) / 2
+        power *= 2
+        total += power * c * c
+    integral = np.pi / (2 * a)
+    return integral, integral * (1 - total)

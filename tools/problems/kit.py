@@ -46,6 +46,7 @@ class Number:
     reference: float = None
     allowed: float = None
     digits: int = 6
+    printed: str = None  # the reference as its source prints it
 
     @property
     def error(self):
@@ -57,6 +58,10 @@ class Number:
     def __str__(self):
         return significant(self.computed, self.digits)
 
+    def wanted(self):
+        """The reference as text."""
+        return self.printed or significant(self.reference, self.digits)
+
 
 @dataclass
 class Problem:
@@ -67,7 +72,7 @@ class Problem:
     kind: str
     parts: list = field(default_factory=list)     # paragraphs and tables, in order
     numbers: list = field(default_factory=list)
-    pictures: list = field(default_factory=list)  # (file name, caption, function of the path)
+    pictures: list = field(default_factory=list)  # (file name, drawing, its data)
 
     def text(self, *paragraphs):
         """Add paragraphs."""
@@ -77,24 +82,25 @@ class Problem:
         """Add a table whose cells are texts or Numbers."""
         self.numbers += [cell for row in rows for cell in row
                          if isinstance(cell, Number) and cell.allowed is not None]
-        lines = [header, ["---"] * len(header), *rows]
-        self.parts.append("\n".join("| " + " | ".join(map(str, line)) + " |" for line in lines))
+        lines = ["| " + " | ".join(map(str, line)) + " |" for line in [header, *rows]]
+        lines.insert(1, "|---" * len(header) + "|")
+        self.parts.append("\n".join(lines))
 
     def compare(self, rows, what="quantity"):
         """Add a table of (text, Number): computed, reference, error, allowed."""
         self.table([what, "spar", "reference", "error", "allowed"], [
-            [name, n, significant(n.reference, n.digits), short(n.error), short(n.allowed)]
+            [name, n, n.wanted(), short(n.error), short(n.allowed)]
             for name, n in rows])
         self.numbers += [n for _, n in rows if n not in self.numbers]
 
-    def picture(self, name, caption, draw):
-        """Add a picture that `draw(path)` makes when pictures are asked for."""
-        self.pictures.append((name, draw))
+    def picture(self, name, caption, drawing, *data):
+        """Add a picture that the function `drawing` of pictures.py makes when it is asked for."""
+        self.pictures.append((name, drawing, data))
         self.parts.append(f"![{caption}](images/{name})")
 
     def failures(self):
         """Lines about the numbers beyond what is allowed."""
-        return [f"{self.name}: {n} for {significant(n.reference, n.digits)},"
+        return [f"{self.name}: {n} for {n.wanted()},"
                 f" error {short(n.error)}, allowed {short(n.allowed)}"
                 for n in self.numbers if not abs(n.error) <= n.allowed]
 

@@ -1,9 +1,7 @@
 """Paths through limit points and bifurcations: decks of tests/cases/path."""
 import numpy as np
 
-from spar_tools import figures
-from spar_tools.shapes import Shapes
-
+from .exact import elliptic
 from .kit import Number, Problem
 
 
@@ -29,7 +27,7 @@ def lee(bench):
                      ("v where it turns back (cm)", Number(back, 61.002975, 5e-3)),
                      ("v where it turns forth (cm)", Number(forth, 50.748555, 5e-3))])
     problem.picture("lee.png", "Lee's frame: path with its limit points, and shapes",
-                    lambda path: draw_lee(path, results, group, p, v, u, limits))
+                    "lee", results, group, p, v, u, limits)
     return problem
 
 
@@ -40,33 +38,6 @@ def extrema(v):
     low = next(i for i in inner if i > top and v[i] < v[i - 1] and v[i] <= v[i + 1])
     return [v[i] - (v[i + 1] - v[i - 1])**2 / (8 * (v[i + 1] - 2 * v[i] + v[i - 1]))
             for i in (top, low)]
-
-
-def draw_lee(path, results, group, p, v, u, limits):
-    """Load over both displacements; some deformed frames."""
-    figure, (left, right) = figures.new_figure(7.0, 3.3, 2, width_ratios=[1.15, 1])
-    for values, name, colour in ((v, "v", figures.COLOURS[0]), (u, "u", figures.COLOURS[1])):
-        left.plot(values, p, "-o", color=colour, ms=2.5, lw=1.1)
-        left.annotate(name, (values[-1], p[-1]), (4, -9), textcoords="offset points", color=colour)
-    for limit in limits:
-        k = int(np.argmin(abs(p - limit)))
-        left.axhline(limit, color=figures.PALE, lw=0.7, zorder=0)
-        left.plot(v[k], limit, "o", mfc="white", mec=figures.INK, ms=6, zorder=5)
-        left.plot(u[k], limit, "o", mfc="white", mec=figures.INK, ms=6, zorder=5)
-        left.text(-4, limit + 0.06, f"limit point {limit:.4f}".replace("-", "\N{MINUS SIGN}"), fontsize=7)
-    left.set(xlabel="displacement of the load (cm)", ylabel="P (kN)", xlim=(-5, None))
-    shapes, view = Shapes(results), figures.View("XZ")
-    chosen = [0, 12, 21, 32, 42, len(p) - 1]
-    for k, step in enumerate(chosen):
-        colour = figures.PALE if step == 0 else figures.SHADES(k / (len(chosen) - 1))
-        state = results.step_state(group, step)
-        figures.draw_lines(right, shapes, state, view, colors=[colour], linewidths=1.4)
-        place = (results.position + state[0])[results.node(3)][[0, 2]]
-        right.plot(*place, "o", color=colour, ms=4)
-        right.annotate(f"{p[step]:.2f}".replace("-", "\N{MINUS SIGN}"), place,
-                       (5, 4 if p[step] >= 0 else -9), textcoords="offset points", fontsize=7)
-    figures.finish_view(right, view, "cm")
-    figures.save(figure, path)
 
 
 def williams(bench):
@@ -89,20 +60,9 @@ def williams(bench):
     return problem
 
 
-def elliptic(k):
-    """Complete elliptic integrals K and E of the modulus k, by the arithmetic-geometric mean."""
-    a, b, c, total, power = 1.0, np.sqrt(1 - k * k), k, k * k / 2, 0.5
-    while abs(c) > 1e-16:
-        a, b, c = (a + b) / 2, np.sqrt(a * b), (a - b) / 2
-        power *= 2
-        total += power * c * c
-    integral = np.pi / (2 * a)
-    return integral, integral * (1 - total)
-
-
 def column(bench):
-    """STB-02."""
-    problem = Problem("STB-02", "Column that buckles and is followed",
+    """PATH-01."""
+    problem = Problem("PATH-01", "Column that buckles and is followed",
                       "Euler's elastica: P/P1 = (2K/π)², tip by 2k/K and 2E/K - 1, k = sin(θ/2)",
                       "closed form")
     deck = "tests/cases/path/column.deck"
@@ -126,28 +86,8 @@ def column(bench):
                      (f"height/L at {theta}", Number(1 + z[k], 2 * second / whole - 1, 1e-3))]
     problem.compare(rows)
     problem.picture("column.png", "Column: secondary branch and shapes",
-                    lambda path: draw_column(path, results, group, p, angle))
+                    "column", results, group, p, angle)
     return problem
-
-
-def draw_column(path, results, group, p, angle):
-    """Load over the rotation of the tip; shapes."""
-    figure, (left, right) = figures.new_figure(6.2, 2.9, 2, width_ratios=[1.3, 1])
-    theta = np.linspace(1e-3, np.radians(125), 80)
-    left.plot(np.degrees(theta), [(2 * elliptic(np.sin(t / 2))[0] / np.pi)**2 for t in theta],
-              color=figures.GREY, lw=1, label="closed form")
-    left.plot(np.degrees(angle), p, "o", color=figures.COLOURS[0], label="spar, 10 elements")
-    left.set(xlabel="rotation of the tip (degrees)", ylabel="P/P1", ylim=(0, 2.05), xlim=(-2, 126))
-    left.legend(loc="lower right")
-    shapes, view = Shapes(results), figures.View("XZ")
-    chosen = [0, *(int(np.argmin(abs(np.degrees(angle) - t))) + 1 for t in (20, 45, 70, 95, 120))]
-    for k, step in enumerate(chosen):
-        colour = figures.PALE if step == 0 else figures.SHADES(k / (len(chosen) - 1))
-        figures.draw_lines(right, shapes, results.step_state(group, step), view, colors=[colour],
-                           linewidths=1.4)
-    figures.finish_view(right, view, "")
-    right.set(xlabel="x/L", ylabel="z/L")
-    figures.save(figure, path)
 
 
 def critical_states(bench):
@@ -162,7 +102,8 @@ def critical_states(bench):
                  " warping stiffness (32 elements), which twist uniformly within an element: an"
                  " error of order (1/n)². L bracket (20 elements), loads outward and inward.")
     cases = [("I beam, moment (kN m)", "lateral", {}, 78.364563, 1e-3),
-             ("strip, cantilever, tip load, PL²/√(EIz GIt)", "strip_cantilever", {}, 4.0125993, 1e-3),
+             ("strip, cantilever, tip load, PL²/√(EIz GIt)", "strip_cantilever", {}, 4.0125993,
+              1e-3),
              ("strip on forks, load in the middle", "strip_middle", {}, 16.936, 1e-3),
              ("strip on forks, weight qL", "strip_weight", {}, 28.315, 1e-3),
              ("L bracket, load outward (N)", "bracket", {}, 1.0875182, 5e-3),

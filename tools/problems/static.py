@@ -1,9 +1,6 @@
 """Large displacements and small: decks of tests/cases/static."""
 import numpy as np
 
-from spar_tools import figures
-from spar_tools.shapes import Shapes
-
 from .kit import Number, Problem, short
 
 # Load PL2/EI, w/L, u/L, theta of the elastica: elliptic integrals (Mattiasson 1981).
@@ -36,35 +33,8 @@ def elastica(bench):
         rows.append([f"{row[0]:g}", *numbers, short(worst.error)])
     problem.table(["PL²/EI", "w/L", "u/L", "θ", "largest error"], rows)
     problem.picture("elastica.png", "Elastica: shapes, and tip against load",
-                    lambda path: draw_elastica(path, results, parts, (w, u, angle)))
+                    "elastica", results, parts, (w, u, angle), ELASTICA)
     return problem
-
-
-def draw_elastica(path, results, parts, tip):
-    """Shapes on the left, tip against load on the right; dots are the closed form."""
-    figure, (left, right) = figures.new_figure(6.8, 2.9, 2, width_ratios=[1, 1.1])
-    shapes = Shapes(results)
-    view = figures.View("XZ")
-    chosen = [(0, 0), (0, 1), (0, 3), (0, 5), (1, 2), (2, 3), (2, 8)]
-    for k, (part, step) in enumerate(chosen):
-        state = results.step_state(parts[part], step)
-        colour = figures.PALE if step == 0 else figures.SHADES(k / (len(chosen) - 1))
-        figures.draw_lines(left, shapes, state, view, colors=[colour], linewidths=1.4)
-        load = parts[part]["load_factor"][step - 1] if step else 0
-        place = view.flat(shapes.curves(state)[-1, -1])
-        left.annotate(f"{load:.2g}", place, (3, 2), textcoords="offset points", fontsize=7)
-    figures.finish_view(left, view, "")
-    left.set(xlabel="x/L", ylabel="z/L", ylim=(-0.05, 0.95), xlim=(-0.04, 1.12))
-    for values, reference, name, colour in zip(tip, ELASTICA[:, 1:].T, ("w/L", "u/L", "θ"),
-                                               figures.COLOURS):
-        right.plot([0, *ELASTICA[:, 0]], [0, *values], color=colour)
-        right.plot(ELASTICA[:, 0], reference, "o", color=colour, mfc="white", mew=0.9)
-        right.text(10.2, values[-1], name, color=colour, fontsize=8, va="center")
-    right.plot([], [], color=figures.GREY, label="spar")
-    right.plot([], [], "o", color=figures.GREY, mfc="white", mew=0.9, label="closed form")
-    right.set(xlabel="PL²/EI", xlim=(0, 11.2), ylim=(0, 1.6))
-    right.legend(loc="upper left", ncols=2)
-    figures.save(figure, path)
 
 
 def roll_up(bench):
@@ -82,43 +52,15 @@ def roll_up(bench):
         law.append(1 - (1 - half**2 / 6) * half / np.sin(half))
     problem.text("`tests/cases/static/rollup.deck`, n elements, ten steps to a full circle, which"
                  " closes to 1e-9 of the length by symmetry. The half circle shows what the element"
-                 " leaves out: bent by an angle a it takes 1 - a²/24 for the chord over the arc, not"
-                 " sin(a/2)/(a/2), which is a⁴/1920 too short. The distance of the tip from its"
+                 " leaves out: bent by an angle a it takes 1 - a²/24 for the chord over the arc,"
+                 " not sin(a/2)/(a/2), which is a⁴/1920 too short. The distance of the tip from its"
                  " place, over the tip's height 2L/π, has to follow that law (reference).")
     problem.compare([(f"half circle, n = {n}", Number(x, ref, 1e-3, 4))
                      for n, x, ref in zip(meshes, computed, law)])
     problem.numbers += [Number(1 + x, 1, 1e-9) for x in circle]
     problem.picture("rollup.png", "Roll-up: error of the half circle over the number of elements",
-                    lambda path: draw_roll_up(path, bench, meshes, computed))
+                    "roll_up", bench.run("tests/cases/static/rollup.deck", n=16), meshes, computed)
     return problem
-
-
-def draw_roll_up(path, bench, meshes, computed):
-    """Shapes of the ten steps, and the error against the law."""
-    figure, (left, right) = figures.new_figure(6.4, 2.8, 2)
-    results = bench.run("tests/cases/static/rollup.deck", n=16)
-    shapes, view = Shapes(results), figures.View("XZ")
-    for step in range(11):
-        colour = figures.PALE if step == 0 else figures.SHADES(step / 10)
-        figures.draw_lines(left, shapes, results.step_state(results.analysis(), step), view,
-                           colors=[colour], linewidths=1.4)
-    figures.finish_view(left, view, "")
-    left.set(xlabel="x/L", ylabel="z/L")
-    n = np.array([3.5, 36])
-    right.loglog(n, (np.pi / n)**4 / 1920, color=figures.GREY, lw=1, label="a⁴/1920, a = π/n")
-    right.loglog(meshes, computed, "o", color=figures.COLOURS[0], label="spar")
-    elements_axis(right, meshes)
-    right.set_ylabel("error of the half circle")
-    right.legend()
-    figures.save(figure, path)
-
-
-def elements_axis(axes, meshes):
-    """Numbers of elements on a logarithmic axis."""
-    axes.set_xscale("log")
-    axes.set_xticks(meshes, labels=[str(n) for n in meshes])
-    axes.minorticks_off()
-    axes.set_xlabel("elements")
 
 
 def reissner(bench):
@@ -198,8 +140,9 @@ def torsion(bench):
         element = results.file["model/elements/id"][()]
         force = group["elements/section_force_p"][()]
         row = [int(np.flatnonzero((element == k) & (part == 1))[0]) for k in (1, 2)]
-        got = (results.series(group, "nodes/3/angle")[0], results.series(group, "nodes/3/warping")[0],
-               force[row[0], 6], force[row[1], 6], results.series(group, "nodes/2/angle")[0])
+        twist_tip, warping_tip, twist_middle = (results.series(group, f"nodes/{path}")[0]
+                                                for path in ("3/angle", "3/warping", "2/angle"))
+        got = (twist_tip, warping_tip, force[row[0], 6], force[row[1], 6], twist_middle)
         theory = "Vlasov" if shear == "OFF" else "with shear"
         rows += [(f"{theory}: {name}", Number(1e6 * x, ref, 1e-4))
                  for name, x, ref in zip(names, got, wanted)]
@@ -214,8 +157,8 @@ def small_channel(bench):
                       "closed form")
     deck = "tests/cases/static/channel.deck"
     problem.text(f"`{deck}` with f = 1e-6 kN, z = 0, shear on: the paper's Fig. 11. The load passes"
-                 " 3.622 cm beside the shear centre. The closed form has neither shear of warping nor"
-                 " its coupling with bending.")
+                 " 3.622 cm beside the shear centre. The closed form has neither shear of warping"
+                 " nor its coupling with bending.")
     results = bench.run(deck, f="1e-6", z=0, shear="ON")
     group = results.analysis()
     euler = results.stacked(group, "nodes/euler")[0, results.node(2)]

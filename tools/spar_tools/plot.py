@@ -105,7 +105,8 @@ def plot_frames(options):
     with Results(options.files[0]) as results:
         group = results.analysis(options.analysis, ("static",))
         last = len(group["step"])
-        steps = options.steps or sorted(set(np.linspace(0, last, min(6, last + 1)).round().astype(int)))
+        even = np.linspace(0, last, min(6, last + 1)).round().astype(int)
+        steps = options.steps or sorted(set(even))
         shapes = Shapes(results)
         states = [results.step_state(group, step) for step in steps]
         factor = [0.0 if step == 0 else group["load_factor"][step - 1] for step in steps]
@@ -143,11 +144,12 @@ def plot_modes(options):
     figure, grid = figures.new_figure(
         panel * columns, (panel * min(1.2, height / width) + 0.5) * rows, columns, rows,
         squeeze=False, sharex=bool(view.plane), sharey=bool(view.plane))
-    name = "load factor" if kind == "buckling" else "frequency"
+    figure.suptitle("modes and their " + ("load factors" if kind == "buckling" else "frequencies"),
+                    fontsize=9)
     for axes, mode, state in zip(grid.flat, modes, states):
         figures.draw_lines(axes, shapes, rest, view, colors=figures.PALE, linewidths=1)
         draw_state(axes, shapes, state, view, outline, figures.COLOURS[0])
-        axes.set_title(f"mode {mode}, {name} {values[mode - 1]:.5g}")
+        axes.set_title(f"{mode}: {values[mode - 1]:.5g}")
         figures.finish_view(axes, view, options.unit)
         axes.label_outer()
     for axes in list(grid.flat)[len(modes):]:
