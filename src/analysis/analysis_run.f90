@@ -86,9 +86,11 @@ contains
       call recorder%begin(i, model%analysis(i), error)
       if (allocated(error)) return
       if (size(model%imperfection) > 0) then
-        call run_one(shaped, system, solver, model%analysis(i), level, iterate, recorder, modes, error)
+        call run_one(shaped, system, solver, model%analysis(i), level, iterate, recorder, modes, &
+                     error)
       else
-        call run_one(model, system, solver, model%analysis(i), level, iterate, recorder, modes, error)
+        call run_one(model, system, solver, model%analysis(i), level, iterate, recorder, modes, &
+                     error)
       end if
       call recorder%finish(.not. allocated(error), second)
       if (.not. allocated(error) .and. allocated(second)) call move_alloc(second, error)

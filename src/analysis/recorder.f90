@@ -143,9 +143,9 @@ contains
     type(critical_t), intent(in) :: point
     character(len=:), allocatable :: line
 
-    line = "step "//to_text(point%step)//": "//trim(critical_name(point%kind))//" at load factor "// &
-           to_text(point%factor, 8)//", unstable modes "//to_text(point%before)//" -> "// &
-           to_text(point%behind)
+    line = "step "//to_text(point%step)//": "//trim(critical_name(point%kind))// &
+           " at load factor "//to_text(point%factor, 8)//", unstable modes "// &
+           to_text(point%before)//" -> "//to_text(point%behind)
   end function critical_line
 
 end module recorder

@@ -48,6 +48,7 @@ contains
       program%height = program%height + 1
     case (add:raise, first_of_two:)
       program%height = program%height - 1
+    case default  ! functions of one argument leave it
     end select
     program%depth = max(program%depth, program%height)
   end subroutine emit

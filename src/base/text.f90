@@ -139,8 +139,9 @@ contains
         row(j, 2) = min(row(j, 1) + 1, row(j - 1, 2) + 1, &
                         row(j - 1, 1) + merge(0, 1, p(i:i) == q(j:j)))
         if (i < 2 .or. j < 2) cycle
-        if (p(i:i) == q(max(j - 1, 1):j - 1) .and. p(i - 1:i - 1) == q(j:j)) &
+        if (p(i:i) == q(max(j - 1, 1):j - 1) .and. p(i - 1:i - 1) == q(j:j)) then
           row(j, 2) = min(row(j, 2), row(max(j - 2, 0), 0) + 1)
+        end if
       end do
       row(:, 0) = row(:, 1)
       row(:, 1) = row(:, 2)

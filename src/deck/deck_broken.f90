@@ -43,6 +43,7 @@ contains
       call mark_name(card, draft%labels)
     case ("SET")
       call mark_setting(card, draft)
+    case default  ! other cards define nothing
     end select
   end subroutine mark_broken
 

@@ -179,8 +179,9 @@ contains
     integer, intent(in) :: length
 
     if (.not. allocated(draft%kept)) draft%kept = ""
-    if (draft%kept_length + length > len(draft%kept)) &
+    if (draft%kept_length + length > len(draft%kept)) then
       draft%kept = draft%kept//repeat(" ", len(draft%kept) + length)
+    end if
   end subroutine make_room
 
 end module deck_draft

@@ -58,8 +58,9 @@ contains
     p%scope = scope
     call move_to(p, 1)
     call read_sum(p, settings)
-    if (.not. failed(p) .and. next(p) /= " ") &
+    if (.not. failed(p) .and. next(p) /= " ") then
       call complain(p, "unexpected "//quoted(next(p))//" in an expression", p%at, 1)
+    end if
     program = p%program
     problem = p%problem
   end subroutine compile_expression
@@ -164,8 +165,9 @@ contains
       return
     end if
     call parse_number(p%text(p%at:last), value, status)
-    if (status /= number_ok) &
+    if (status /= number_ok) then
       call complain(p, quoted(p%text(p%at:last))//" is too large", p%at, last - p%at + 1)
+    end if
     call emit(p%program, push_number, value)
     call move_to(p, last + 1)
   end subroutine read_constant
@@ -254,9 +256,10 @@ contains
     call close_parenthesis(p)
     if (code <= first_of_two) call emit(p%program, code)
     wanted = merge(2, 1, code >= first_of_two)
-    if (given < wanted .or. (given > wanted .and. code <= first_of_two)) &
+    if (given < wanted .or. (given > wanted .and. code <= first_of_two)) then
       call complain(p, name//" takes "//trim(merge("one argument ", "two arguments", &
                                                    wanted == 1)), start, len(name))
+    end if
   end subroutine read_call
 
   subroutine close_parenthesis(p)

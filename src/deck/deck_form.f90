@@ -182,6 +182,7 @@ contains
       end if
     case (kind_component)
       call match_component(card, w, report, ok)
+    case default  ! numbers, ids and names are read later
     end select
   end subroutine match_word
 
@@ -363,8 +364,9 @@ contains
         if (i > 1) phrase = phrase//trim(merge(" or", ",  ", i == n))//" "
         if (form%repeats) phrase = phrase//"at least "
         phrase = phrase//to_text(form%least)
-        if (form%arguments > form%least .and. .not. form%repeats) &
+        if (form%arguments > form%least .and. .not. form%repeats) then
           phrase = phrase//" to "//to_text(form%arguments)
+        end if
       end associate
     end do
     phrase = phrase//merge(" arguments", " argument ", phrase /= "1" .and. phrase /= "at least 1")

@@ -253,18 +253,18 @@ contains
         "MAXITER n:count=30 | STABILITY kind:OFF/ON/REQUIRED=OFF | NAME name:word | "// &
         "BRANCH switch:OFF/ON=OFF", &
         "ramps the loads given since the last analysis. CONTROL LOAD (default): equal steps of "// &
-        "the load factor to TO; CONTROL DISPLACEMENT: equal steps of a displacement of a node or "// &
-        "marker to a value; CONTROL ARC: along the path, beyond limit points, to TO or STOP. "// &
-        "STABILITY counts unstable modes and locates critical points, BRANCH ON switches to the "// &
-        "secondary branch at the first bifurcation", &
+        "the load factor to TO; CONTROL DISPLACEMENT: equal steps of a displacement of a node "// &
+        "or marker to a value; CONTROL ARC: along the path, beyond limit points, to TO or STOP. "// &
+        "STABILITY counts unstable modes and locates critical points, BRANCH ON switches to "// &
+        "the secondary branch at the first bifurcation", &
         "STATIC STEPS 12 NAME lift", "mode 10", read_static), &
       keyword_t("BUCKLING", "analysis", "", "MODES n:count=10 | NAME name:word", &
-        "finds the multipliers of the loads given since the last STATIC, or of those it applied,"// &
-        " at which the state becomes unstable: n nearest zero of each sign", &
+        "finds the multipliers of the loads given since the last STATIC, or of those it "// &
+        "applied, at which the state becomes unstable: n nearest zero of each sign", &
         "XF 2 -1 0 0|BUCKLING MODES 2", "mode 8", read_buckling), &
       keyword_t("IMPERFECTION", "load", "mode:count scale:L", "", &
-        "adds a mode of the last BUCKLING, by its row in the table of multipliers and with this "// &
-        "largest displacement, to the undeformed shape; the next analysis starts from there", &
+        "adds a mode of the last BUCKLING, by its row in the table of multipliers and with "// &
+        "this largest displacement, to the undeformed shape; the next analysis starts from there", &
         "XF 2 -1 0 0|BUCKLING MODES 2|IMPERFECTION 1 0.01|STATIC", "", read_imperfection), &
       keyword_t("EIGEN", "analysis", "", "MODES n:count=10 | NAME name:word", &
         "finds the n lowest natural frequencies about the present state", &

@@ -219,9 +219,10 @@ contains
     end do
     if (card%option(1) > 0 .and. analysis%control == control_arc) call draft%report%add_error( &
       card%place(card%option(1)), "CONTROL ARC chooses its steps", "MAXSTEPS n limits them")
-    if (card%option(2) > 0 .and. analysis%control == control_displacement) &
+    if (card%option(2) > 0 .and. analysis%control == control_displacement) then
       call draft%report%add_error(card%place(card%option(2)), &
                                   "the value of CONTROL DISPLACEMENT replaces TO")
+    end if
   end subroutine check_arc_options
 
   !> BUCKLING [MODES n] [NAME name]

@@ -29,8 +29,9 @@ contains
     pattern = 0
     do r = 1, draft%records
       associate (record => draft%record(r))
-        if (record%kind == record_load .or. record%kind == record_gravity) &
+        if (record%kind == record_load .or. record%kind == record_gravity) then
           pattern(merge(additional, base, record%additional), record%block) = 1
+        end if
       end associate
     end do
     patterns = 0
@@ -127,8 +128,9 @@ contains
     do i = 1, size(draft%model%analysis)
       if (i > 1) steps = steps//", then "
       steps = steps//"STATIC STEPS "//to_text(draft%model%analysis(i)%steps)
-      if (draft%model%analysis(i)%pattern == pattern(additional) .and. pattern(additional) > 0) &
+      if (draft%model%analysis(i)%pattern == pattern(additional) .and. pattern(additional) > 0) then
         steps = steps//" (DELXF)"
+      end if
     end do
     call draft%report%add_note(place_t(file=1), "no analysis given: "//steps)
   end subroutine tell_implied
@@ -205,8 +207,9 @@ contains
     end if
     call set_values(draft, record, choice, i, load, ok)
     if (.not. ok) return
-    if (record%at_offset .or. record%at_point) &
+    if (record%at_offset .or. record%at_point) then
       call resolve_point(draft, neighbours, record, load%node, point, ok)
+    end if
     if (.not. ok) return
     if (point%node > 0) then
       draft%points = draft%points + 1
@@ -237,8 +240,9 @@ contains
       name = "node "//id_text(node%id, node%part)
       ok = any(node%exists)
       if (.not. ok) then
-        if (.not. (draft%elements_incomplete .or. draft%node_broken(load%node))) &
+        if (.not. (draft%elements_incomplete .or. draft%node_broken(load%node))) then
           call draft%report%add_error(choice%place(i), "no element uses "//name)
+        end if
         return
       end if
       select case (record%values)

@@ -56,8 +56,9 @@ contains
     member%rigid = beam%rigid
     start = draft%model%node(beam%node(1, 1))%position
     member%chord = (draft%model%node(beam%node(1, 2))%position - start)/beam%divide
-    if (member%section > 0 .and. member%material > 0 .and. .not. beam%rigid) &
+    if (member%section > 0 .and. member%material > 0 .and. .not. beam%rigid) then
       member%status = mode_flexible
+    end if
     node = beam%node(:, 1)
     do part = 1, beam%divide
       member%node(:, 1) = node

@@ -23,8 +23,9 @@ contains
     type(card_t), intent(in) :: card
     type(draft_t), intent(inout) :: draft
 
-    if (draft%model%title /= "") &
+    if (draft%model%title /= "") then
       call draft%report%add_warning(card%place(1), "a second TITLE replaces the first")
+    end if
     draft%model%title = card%raw(2)
   end subroutine read_title
 
@@ -165,8 +166,9 @@ contains
 
     if (card%option(2) > 0 .and. card%option(3) > 0) call draft%report%add_error( &
       card%place(card%option(3)), "G and NU are both given", "G = E/(2(1 + NU)): one is enough")
-    if (card%option(2) == 0 .and. card%option(3) == 0) &
+    if (card%option(2) == 0 .and. card%option(3) == 0) then
       call draft%report%add_error(card%place(1), "MATERIAL needs G or NU")
+    end if
     ok = (card%option(2) > 0) .neqv. (card%option(3) > 0)
     call define_name(card, 2, draft%report, draft%materials, ok, k)
     if (k == 0) return

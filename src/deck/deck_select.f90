@@ -52,8 +52,9 @@ contains
       case (select_all)
         do k = 1, merge(draft%nodes, draft%beams, of_nodes)
           if (of_nodes) then
-            if (any(draft%model%node(k)%exists)) &
+            if (any(draft%model%node(k)%exists)) then
               call append(choice, k, 0, draft%selection(i), .true.)
+            end if
           else
             call append(choice, k, 0, draft%selection(i), .true.)
           end if
@@ -172,8 +173,9 @@ contains
     integer :: n
 
     n = choice%found + 1
-    if (.not. allocated(choice%index)) &
+    if (.not. allocated(choice%index)) then
       allocate (choice%index(16), choice%part(16), choice%loose(16), choice%place(16))
+    end if
     if (n > size(choice%place)) then
       allocate (more(2*n))
       more(:n - 1) = choice%place

@@ -41,8 +41,9 @@ contains
     end if
     close (unit)
     if (allocated(error)) return
-    if (index(text, achar(0)) > 0) &
+    if (index(text, achar(0)) > 0) then
       call fail(error, exit_io, "'"//path//"' is not a text file: it contains a NUL byte")
+    end if
     if (index(text, byte_order_mark) == 1) text = text(4:)
   end subroutine load_text
 

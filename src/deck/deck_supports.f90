@@ -46,9 +46,10 @@ contains
       return
     end if
     if (.not. any(draft%model%node(k)%exists)) then
-      if (.not. (draft%elements_incomplete .or. draft%node_broken(k))) &
+      if (.not. (draft%elements_incomplete .or. draft%node_broken(k))) then
         call draft%report%add_error(choice%place(i), "no element uses node "// &
                                     to_text(draft%model%node(k)%id))
+      end if
       return
     end if
     draft%model%node(k)%fix_place = record%place

@@ -31,14 +31,16 @@ contains
     if (given == 0 .and. card%option(first) == 0) return
     if (given /= 1) then
       call draft%report%add_error(card%place(maxval(card%option(first:first + 3))), &
-                                  "CONTROL takes one of LOAD, ARC, DISPLACEMENT node component value")
+                                  "CONTROL takes one of LOAD, ARC, "// &
+                                  "DISPLACEMENT node component value")
       return
     end if
     do i = 1, 3
       if (card%option(first + i) > 0) analysis%control = kinds(i)
     end do
-    if (analysis%control == control_displacement) &
+    if (analysis%control == control_displacement) then
       call read_target(card, card%option(first + 3), record_control, draft)
+    end if
   end subroutine read_control
 
   !> Keep the words `node component value` behind word `w` until the nodes are known.

@@ -45,14 +45,16 @@ contains
           call read_mode(word, card%place(w), draft, card%whole(w), word_ok)
         case (kind_place)
           card%whole(w) = merge(1, 0, upper(word) == "POINT")
-          if (card%whole(w) == 0) &
+          if (card%whole(w) == 0) then
             call read_number(word, card%place(w), draft, card%number(w), word_ok)
+          end if
         case (kind_real)
           call read_number(word, card%place(w), draft, card%number(w), word_ok)
         case (kind_word)
           word_ok = card%last(w) - card%first(w) < longest_name .and. len(card%word(w)) > 0
           if (.not. word_ok) call draft%report%add_error(card%place(w), &
                                                    "a name has 1 to 64 characters")
+        case default  ! has no value
         end select
       end associate
       ok = ok .and. word_ok
@@ -201,8 +203,9 @@ contains
     good = .true.
     dot = position_outside(word, ".")
     call read_whole(word(:dot - 1), shifted(place, 0, dot - 1), draft, id, good)
-    if (good .and. dot <= len(word)) &
+    if (good .and. dot <= len(word)) then
       call read_whole(word(dot + 1:), shifted(place, dot, len(word) - dot), draft, part, good)
+    end if
     if (good .and. (id < 1 .or. (part < 1 .and. dot <= len(word)))) then
       good = .false.
       call draft%report%add_error(place, quoted(word)//" is not an id", "ids count from 1")

@@ -26,8 +26,9 @@ contains
       associate (material => model%material(i))
         if (material%place%line == 0) cycle
         call need_positive(report, material%place, "E of MATERIAL", material%name, material%e)
-        if (material%e > 0.0_wp) &
+        if (material%e > 0.0_wp) then
           call need_positive(report, material%place, "G of MATERIAL", material%name, material%g)
+        end if
         if (material%rho < 0.0_wp) call report%add_error(material%place, &
           "RHO of MATERIAL "//quoted(trim(material%name))//" cannot be negative")
         if (material%damping < 0.0_wp) call report%add_error(material%place, &
@@ -130,8 +131,9 @@ contains
                                                             to_text(node%id))
       end associate
     end do
-    if (size(model%pattern) == 0 .and. any(model%analysis%kind /= analysis_eigen)) &
+    if (size(model%pattern) == 0 .and. any(model%analysis%kind /= analysis_eigen)) then
       call report%add_warning(deck_place, "the deck has no loads")
+    end if
     do i = 1, size(model%pattern)
       if (.not. any(abs(model%pattern(i)%gravity) > 0)) cycle
       if (has_mass(model)) exit

@@ -1,6 +1,7 @@
 !> The mechanical model that a deck describes: plain data, in the units of the deck.
 !>
-!> Entities refer to each other by index. Where a place is kept, it is the card that made the entity.
+!> Entities refer to each other by index. A place that is kept is that of the card that made the
+!> entity.
 module model_data
   use kinds, only: wp
   use diagnostics, only: place_t
@@ -45,7 +46,7 @@ module model_data
 
   !> A node id: position and which of its three nodes exist.
   type :: node_t
-    integer :: id = 0                   !< id of the deck; for an inner node of a divided element, the element's
+    integer :: id = 0                   !< id of the deck; of an inner node, its element's
     integer :: part = 0                 !< 0, or the number of the inner node
     real(wp) :: position(3) = 0.0_wp    !< initial position [L]
     logical :: placed = .false.         !< has a position
@@ -82,7 +83,7 @@ module model_data
     integer :: kind = type_beamw        !< one of `type_*`
     integer :: node(3, 2) = 0           !< node index by kind and end (1 = p, 2 = q); 0: none
     real(wp) :: chord(3) = 0.0_wp       !< initial vector from p to q [L]; the same for all parts
-    real(wp) :: orientation(3) = 0.0_wp !< direction of the section's y axis as given; zero: the default rule
+    real(wp) :: orientation(3) = 0.0_wp !< section's y axis as given; 0: default rule
     real(wp) :: triad(3, 3) = 0.0_wp    !< columns eX eY eZ, principal axes (set by model_check)
     integer :: section = 0              !< index; 0: none
     integer :: material = 0             !< index; 0: none
@@ -93,9 +94,11 @@ module model_data
     logical :: rigid = .false.          !< RIGID given: no mode flexible, mass kept
     integer :: status(8) = mode_fixed   !< of each mode, one of `mode_*` (final: defaults resolved)
     logical :: has_stiffness = .false.  !< ESTIFF given
-    real(wp) :: stiffness(7) = 0.0_wp   !< ESTIFF: EA [F], GIt EIy EIz [F L^2], cy cz [L^2], EIw [F L^4]
+    !> ESTIFF: EA [F], GIt EIy EIz [F L^2], cy cz [L^2], EIw [F L^4]
+    real(wp) :: stiffness(7) = 0.0_wp
     logical :: has_inertia = .false.    !< EM given
-    real(wp) :: inertia(6) = 0.0_wp     !< EM: rho A [M L^-1], rho Ip, Iy, Iz, Iyz [M L], rho Iw [M L^3]
+    !> EM: rho A [M L^-1], rho Ip, Iy, Iz, Iyz [M L], rho Iw [M L^3]
+    real(wp) :: inertia(6) = 0.0_wp
     type(place_t) :: place
   end type member_t
 
@@ -116,7 +119,7 @@ module model_data
     real(wp) :: force(3) = 0.0_wp     !< [F]
     real(wp) :: moment(3) = 0.0_wp    !< [F L]
     real(wp) :: bimoment = 0.0_wp     !< conjugate to the warping coordinate [F L^2]
-    integer :: marker = 0             !< index in `model%point` of the load's point; 0: the node itself
+    integer :: marker = 0             !< index in `model%point`; 0: at the node itself
     integer :: function = 0           !< index; 0: the load factor itself
     type(place_t) :: place
   end type load_t
@@ -157,7 +160,7 @@ module model_data
     integer :: iterations = 0                 !< MAXITER; 0: the default
     integer :: control = control_load         !< one of `control_*`
     type(target_t) :: controlled              !< DISPLACEMENT: what is controlled, and its end value
-    real(wp) :: first_increment = 0.0_wp      !< INITIAL: first increment of the factor, ARC; 0: TO/20
+    real(wp) :: first_increment = 0.0_wp      !< INITIAL of ARC: of the factor; 0: TO/20
     integer :: most_steps = 200               !< MAXSTEPS of ARC
     logical :: stops = .false.                !< STOP given
     type(target_t) :: stop                    !< STOP: ends where this value is passed

@@ -15,6 +15,7 @@ program run_tests
   use test_beamw_inertia, only: run_beamw_inertia_tests
   use test_column_vibration, only: run_column_vibration_tests
   use test_static, only: run_static_tests
+  use test_limits, only: run_limits_tests
   use test_path, only: run_path_tests
   use test_stability, only: run_stability_tests
   use test_linalg_eigen, only: run_linalg_eigen_tests
@@ -43,6 +44,7 @@ program run_tests
   call run_beamw_inertia_tests()
   call run_column_vibration_tests()
   call run_static_tests()
+  call run_limits_tests()
   call run_path_tests()
   call run_stability_tests()
   call run_linalg_eigen_tests()

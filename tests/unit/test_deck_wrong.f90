@@ -116,7 +116,7 @@ contains
         wanted(n) = line(:len(wanted))
       end if
     end do
-    close (unit, iostat=stat)
+    close (unit)
   end subroutine expectations
 
 end module test_deck_wrong

@@ -20,6 +20,10 @@ module test_linalg
 contains
 
   subroutine run_linalg_tests()
+    integer :: i, n
+
+    call random_seed(size=n)
+    call random_seed(put=[(20221123 + 7*i, i=1, n)])  ! the same matrices in every run
     call run("linalg: equilibration is exact and complete", test_scaling)
     call run("linalg: solutions of saddle point systems", test_saddle_point)
     call run("linalg: badly scaled systems", test_bad_scales)
@@ -240,7 +244,7 @@ contains
   !> coordinates as without them.
   subroutine test_redundant()
     type(solver_t) :: solver
-    real(wp) :: a(48, 48), x(48), b(48)
+    real(wp) :: a(48, 48), x(48), b(48), wanted(48)
     integer, allocatable :: null(:)
     integer :: i
 
@@ -249,15 +253,16 @@ contains
     a(:, 46) = 1.0e3_wp*a(:, 43)
     a(48, :) = 0.0_wp
     a(:, 48) = 0.0_wp
-    b = matmul(a, known(48))
+    wanted = known(48)
+    b = matmul(a, wanted)
     do i = 1, size(limits)
       call solve_matrix(solver, a, .true., limits(i), b, x)
       null = solver%null_pivots()
       call expect(size(null) == 2, "two null pivots")
       if (size(null) /= 2) cycle
-      call expect(any(null(1) == [43, 46]) .and. null(2) == 48, "their names")
+      call expect((null(1) == 43 .or. null(1) == 46) .and. null(2) == 48, "their names")
       call expect(solver%negative_pivots() == 6, "independent constraints")
-      call expect_close(x(:40), pack(known(48), [(i <= 40, i=1, 48)]), 1.0e-10_wp, "coordinates")
+      call expect_close(x(:40), wanted(:40), 1.0e-10_wp, "coordinates")
       call expect_close(matmul(a, x), b, 1.0e-9_wp, "residual")
     end do
     call solver%free()

@@ -75,8 +75,8 @@ contains
     if (allocated(error)) return
     if (size(memory%critical) == 0) return
     associate (mode => memory%critical(1)%mode)
-      call expect_close(mode(3, :)/maxval(abs(mode(2, :))), [(0.0_wp, i=1, size(mode, 2))], 1.0e-4_wp, &
-                        "vertical displacement")
+      call expect(maxval(abs(mode(3, :))) <= 1.0e-4_wp*maxval(abs(mode(2, :))), &
+                  "no vertical displacement")
       do i = 1, size(model%node)
         mirror = minloc(abs(model%node%position(1) - (1 - model%node(i)%position(1))), 1)
         call expect_close([mode(2, i) - mode(2, mirror), mode(4, i) - mode(4, mirror)] &
@@ -104,7 +104,8 @@ contains
     call expect(memory%critical(1)%kind == critical_bifurcation, "a bifurcation")
     tip = findloc(model%node%id == 2, .true., 1)
     associate (n => memory%steps)
-      call expect_close(abs(2*asin(memory%results(n)%euler(3, tip))), 2*pi/3, 1.0e-7_wp, "tip rotation")
+      call expect_close(abs(2*asin(memory%results(n)%euler(3, tip))), 2*pi/3, 1.0e-7_wp, &
+                        "tip rotation")
       call expect_close(memory%record(n)%factor, (2*complete_k/pi)**2, 2.0e-3_wp, "load")
       call expect_close(1 + memory%results(n)%displacement(3, tip), 2*complete_e/complete_k - 1, &
                         2.0e-3_wp, "height of the tip")
@@ -128,8 +129,8 @@ contains
     tip = findloc(model%node%id == 2, .true., 1)
     do i = 1, 9
       associate (f => memory%record(i)%factor)
-        call expect_close(abs(memory%results(i)%displacement(1, tip))/(1.0e-3_wp*f/(1 - f)), 1.0_wp, &
-                          4.0e-3_wp, "deflection")
+        call expect_close(abs(memory%results(i)%displacement(1, tip))/(1.0e-3_wp*f/(1 - f)), &
+                          1.0_wp, 4.0e-3_wp, "deflection")
       end associate
     end do
   end subroutine imperfect

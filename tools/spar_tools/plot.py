@@ -163,6 +163,9 @@ def main(arguments=None):
     draw = {"curve": plot_curve, "frames": plot_frames, "modes": plot_modes}[options.command]
     output = options.output or f"{Path(options.files[0]).stem}_{options.command}.png"
     try:
+        for name in options.files:
+            if not Path(name).is_file():
+                raise ResultError(f"there is no file {name}")
         figures.save(draw(options), output)
     except (ResultError, OSError, KeyError) as error:
         print(f"spar-plot: {error}", file=sys.stderr)
