@@ -1,7 +1,7 @@
 !> The commands of the program.
 module app_commands
   use, intrinsic :: iso_fortran_env, only: output_unit, error_unit
-  use errors, only: error_t, fail, exit_usage, exit_deck
+  use errors, only: error_t, fail, exit_different, exit_usage, exit_deck
   use text, only: string_t, upper, quoted, plural, newline, nearest_word
   use program_version, only: program_name, version
   use diagnostics, only: report_t
@@ -14,6 +14,10 @@ module app_commands
   use output_log, only: log_quiet
   use output_constants, only: print_section, print_sections_json
   use output_recorder, only: run_recorder_t, run_options_t
+  use output_compare, only: compare_files
+  use output_differences, only: differences_t, print_differences, print_differences_json
+  use output_digest, only: write_digest
+  use output_info, only: file_info_t, read_info, print_info, print_info_json
   use app_options, only: command_t, get_words, parse_words
   use app_help, only: print_help
   implicit none
@@ -59,6 +63,12 @@ contains
       call show_sections(command, error)
     case ("keywords")
       call show_keywords(command, error)
+    case ("compare")
+      call compare_results(command, error)
+    case ("digest")
+      call write_digest(output_unit, command%argument, command%digits, error)
+    case ("info")
+      call show_info(command, error)
     case ("version")
       write (output_unit, "(a)") program_name//" "//version
     case default
@@ -109,6 +119,7 @@ contains
     if (options%output == "") options%output = base_name(command%argument)//".h5"
     options%overwrite = command%overwrite
     options%progress = command%progress
+    options%drawn = command%drawn
     options%level = command%level
     if (options%output == options%deck .or. options%output//".part" == options%deck) then
       call fail(error, exit_usage, "the results would replace the deck "//quoted(options%deck)// &
@@ -191,6 +202,38 @@ contains
       if (.not. found) call refuse_keyword(command%argument, error)
     end if
   end subroutine show_keywords
+
+  !> spar compare
+  subroutine compare_results(command, error)
+    type(command_t), intent(in) :: command
+    type(error_t), allocatable, intent(out) :: error
+    type(differences_t) :: found
+
+    call compare_files(command%argument, command%name, command%tolerance, command%only, found, &
+                       error)
+    if (allocated(error)) return
+    if (command%json) then
+      call print_differences_json(output_unit, found, command%argument, command%name)
+    else
+      call print_differences(output_unit, found, command%argument, command%name)
+    end if
+    if (found%all > 0) call fail(error, exit_different, "")
+  end subroutine compare_results
+
+  !> spar info
+  subroutine show_info(command, error)
+    type(command_t), intent(in) :: command
+    type(error_t), allocatable, intent(out) :: error
+    type(file_info_t) :: info
+
+    call read_info(command%argument, info, error)
+    if (allocated(error)) return
+    if (command%json) then
+      call print_info_json(output_unit, info)
+    else
+      call print_info(output_unit, info)
+    end if
+  end subroutine show_info
 
   subroutine refuse_keyword(name, error)
     character(len=*), intent(in) :: name

@@ -21,6 +21,12 @@ contains
       call print_section(unit)
     case ("keywords")
       call print_keywords(unit)
+    case ("compare")
+      call print_compare(unit)
+    case ("digest")
+      call print_digest(unit)
+    case ("info")
+      call print_info(unit)
     case default
       call print_all(unit)
     end select
@@ -36,11 +42,14 @@ contains
       "  spar check DECK            read, check and explain a deck, run nothing", &
       "  spar section DECK [NAME]   the constants of the sections, or of one", &
       "  spar keywords [KEYWORD]    the keywords of a deck, or one in full", &
+      "  spar compare A.h5 B.h5     the differences between two result files", &
+      "  spar digest OUT.h5         the results as text that `diff` can compare", &
+      "  spar info OUT.h5           what a result file holds", &
       "  spar COMMAND --help        the options of a command", &
       "  spar --version", &
       "", &
-      "Exit status: 0 done, 2 usage, 3 deck or model error, 4 no solution,", &
-      "             5 file or memory, 130 interrupted"
+      "Exit status: 0 done, 1 compare found differences, 2 usage, 3 deck or model error,", &
+      "             4 no solution, 5 file or memory, 130 interrupted"
   end subroutine print_all
 
   subroutine print_run(unit)
@@ -51,6 +60,7 @@ contains
       "", &
       "  -o OUT.h5          result file; default: the deck's name with .h5, in this folder", &
       "  -D NAME=VALUE      value of a name, in place of the deck's SET; may be repeated", &
+      "  --no-vtk           leave out the drawing for ParaView (/VTKHDF)", &
       "  --no-overwrite     refuse to replace an existing result file", &
       "  --quiet            print nothing but errors", &
       "  --verbose          print every iteration", &
@@ -88,5 +98,45 @@ contains
       "", &
       "  --markdown         all of them, as in the manual"
   end subroutine print_keywords
+
+  subroutine print_compare(unit)
+    integer, intent(in) :: unit
+
+    write (unit, "(a)") &
+      "spar compare A.h5 B.h5 [options]   the differences between two result files, a line each:", &
+      "                                   path, index, both values, relative error", &
+      "", &
+      "  --rtol R           numbers may differ by R times the larger one; default 1e-6", &
+      "  --atol A           and by A; default 0", &
+      "  --only PATH        compare this dataset or group; may be repeated", &
+      "  --json             as JSON", &
+      "", &
+      "NaN differs from everything. What is below R/1000 of the largest entry of a dataset (its", &
+      "columns of one dimension) counts as round-off. Whole numbers and texts have to be equal.", &
+      "Modes are compared up to their sign, those of equal eigenvalues as the space they span.", &
+      "/VTKHDF and convergence are left out unless --only names them.", &
+      "Exit status: 0 no differences, 1 some, 2 usage, 5 a file cannot be read"
+  end subroutine print_compare
+
+  subroutine print_digest(unit)
+    integer, intent(in) :: unit
+
+    write (unit, "(a)") &
+      "spar digest OUT.h5 [options]       the results as text that `diff` can compare", &
+      "", &
+      "  --digits N         digits of a number; default 6", &
+      "", &
+      "No digit is printed below 1e-(N+3) of the largest entry of a dataset (its columns of", &
+      "one dimension), so that round-off does not show."
+  end subroutine print_digest
+
+  subroutine print_info(unit)
+    integer, intent(in) :: unit
+
+    write (unit, "(a)") &
+      "spar info OUT.h5 [options]         what was run, what is inside, whether it is complete", &
+      "", &
+      "  --json             as JSON"
+  end subroutine print_info
 
 end module app_help

@@ -1,17 +1,20 @@
 !> The command line as data.
 module app_options
+  use kinds, only: wp
   use errors, only: error_t, fail, exit_usage
   use text, only: string_t, quoted, nearest_word, newline
   use deck_settings, only: is_identifier
   use model_data, only: setting_t
+  use deck_number, only: parse_number
   use output_log, only: log_quiet, log_normal, log_verbose
+  use output_differences, only: tolerance_t
   implicit none
   private
 
   public :: command_t, get_words, parse_words
 
-  character(len=*), parameter, public :: commands(4) = &
-    ["run     ", "check   ", "section ", "keywords"]
+  character(len=*), parameter, public :: commands(7) = &
+    ["run     ", "check   ", "section ", "keywords", "compare ", "digest  ", "info    "]
 
   !> What the user asks for.
   type :: command_t
@@ -21,7 +24,11 @@ module app_options
     type(setting_t), allocatable :: setting(:) !< -D
     logical :: overwrite = .true.
     logical :: progress = .true.
-    character(len=:), allocatable :: name      !< of a section; empty: all
+    logical :: drawn = .true.                  !< with /VTKHDF
+    character(len=:), allocatable :: name      !< of a section, empty: all; second file to compare
+    type(string_t), allocatable :: only(:)     !< --only
+    type(tolerance_t) :: tolerance             !< --rtol, --atol
+    integer :: digits = 6                      !< --digits
     logical :: json = .false.
     logical :: markdown = .false.
     integer :: level = log_normal              !< one of `log_*`
@@ -51,7 +58,7 @@ contains
     command%argument = ""
     command%output = ""
     command%name = ""
-    allocate (command%setting(0))
+    allocate (command%setting(0), command%only(0))
     if (size(words) == 0) then
       call refuse("no command given", "", error)
       return
@@ -108,8 +115,8 @@ contains
         else if (options .and. index(word, "-") == 1 .and. len(word) > 1) then
           call parse_option(words, i, command, error)
           if (allocated(error) .or. command%action == "help") return
-        else if (command%action == "section" .and. command%argument /= "" .and. &
-                 command%name == "" .and. word /= "") then
+        else if (any(["section", "compare"] == command%action) .and. word /= "" .and. &
+                 command%argument /= "" .and. command%name == "") then
           command%name = word
         else if (command%argument /= "" .or. word == "") then
           call refuse("unexpected argument "//quoted(word), "", error, command%action)
@@ -120,9 +127,15 @@ contains
       end associate
       i = i + 1
     end do
-    if (command%argument == "" .and. command%action /= "keywords") then
-      call refuse("no deck given", "", error, command%action)
-    end if
+    select case (command%action)
+    case ("keywords")
+    case ("compare", "digest", "info")
+      if (command%argument == "") call refuse("no result file given", "", error, command%action)
+      if (command%action == "compare" .and. command%argument /= "" .and. command%name == "") &
+        call refuse("two result files are needed", "", error, command%action)
+    case default
+      if (command%argument == "") call refuse("no deck given", "", error, command%action)
+    end select
   end subroutine parse_arguments
 
   !> One option; `i` moves on to its last word.
@@ -148,8 +161,12 @@ contains
       if (option == "-D") call add_setting(value, command, error)
     case ("--no-overwrite")
       command%overwrite = .false.
+    case ("--rtol", "--atol", "--digits", "--only")
+      call take_value(words, i, command, error)
     case ("--no-progress")
       command%progress = .false.
+    case ("--no-vtk")
+      command%drawn = .false.
     case ("--quiet", "--verbose")
       if (command%level /= log_normal) call refuse("give --quiet or --verbose once", "", error)
       command%level = merge(log_quiet, log_verbose, option == "--quiet")
@@ -171,11 +188,17 @@ contains
     select case (action)
     case ("run")
       options = [character(len=14) :: "-h", "--help", "-D", "-o", "--no-overwrite", "--quiet", &
-                 "--verbose", "--no-progress"]
+                 "--verbose", "--no-progress", "--no-vtk"]
     case ("check")
       options = [character(len=14) :: "-h", "--help", "-D"]
     case ("section")
       options = [character(len=14) :: "-h", "--help", "-D", "--json"]
+    case ("compare")
+      options = [character(len=14) :: "-h", "--help", "--rtol", "--atol", "--only", "--json"]
+    case ("digest")
+      options = [character(len=14) :: "-h", "--help", "--digits"]
+    case ("info")
+      options = [character(len=14) :: "-h", "--help", "--json"]
     case default
       options = [character(len=14) :: "-h", "--help", "--markdown"]
     end select
@@ -198,6 +221,54 @@ contains
     if (value == "") call refuse("option "//quoted(words(i)%s(:2))//" needs a value", "", error, &
                                  command%action)
   end subroutine get_value
+
+  !> An option of comparisons and digests with the word behind it; `i` moves on to that.
+  subroutine take_value(words, i, command, error)
+    type(string_t), intent(in) :: words(:)
+    integer, intent(inout) :: i
+    type(command_t), intent(inout) :: command
+    type(error_t), allocatable, intent(out) :: error
+    real(wp) :: number
+    integer :: status
+
+    i = i + 1
+    if (i > size(words)) then
+      call refuse("option "//quoted(words(i - 1)%s)//" needs a value", "", error, command%action)
+      return
+    end if
+    associate (option => words(i - 1)%s, word => words(i)%s)
+      if (option == "--only") then
+        call add_path(word, command%only)
+        if (word == "") call refuse("'--only' needs a path", "", error, command%action)
+        return
+      end if
+      call parse_number(word, number, status)
+      if (status == 0 .and. option == "--digits") then
+        if (number < 1 .or. number > 17 .or. abs(number - anint(number)) > 0) status = 1
+        if (status == 0) command%digits = nint(number)
+      else if (status == 0) then
+        if (number < 0) status = 1
+        if (option == "--rtol") command%tolerance%relative = number
+        if (option == "--atol") command%tolerance%absolute = number
+      end if
+      if (status /= 0) call refuse(quoted(word)//" is no value of "//option, "", error, &
+                                   command%action)
+    end associate
+  end subroutine take_value
+
+  pure subroutine add_path(path, paths)
+    character(len=*), intent(in) :: path
+    type(string_t), allocatable, intent(inout) :: paths(:)
+    type(string_t), allocatable :: more(:)
+    integer :: i
+
+    allocate (more(size(paths) + 1))
+    do i = 1, size(paths)
+      more(i)%s = paths(i)%s
+    end do
+    more(size(more))%s = path
+    call move_alloc(more, paths)
+  end subroutine add_path
 
   subroutine set_output(value, command, error)
     character(len=*), intent(in) :: value

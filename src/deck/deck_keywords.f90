@@ -254,7 +254,7 @@ contains
         "BRANCH switch:OFF/ON=OFF", &
         "ramps the loads given since the last analysis. CONTROL LOAD (default): equal steps of "// &
         "the load factor to TO; CONTROL DISPLACEMENT: equal steps of a displacement of a node "// &
-        "or marker to a value; CONTROL ARC: along the path, beyond limit points, to TO or STOP. "// &
+        "or marker to a value; CONTROL ARC: along the path, past limit points, to TO or STOP. "// &
         "STABILITY counts unstable modes and locates critical points, BRANCH ON switches to "// &
         "the secondary branch at the first bifurcation", &
         "STATIC STEPS 12 NAME lift", "mode 10", read_static), &

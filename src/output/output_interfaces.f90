@@ -4,7 +4,7 @@ module output_interfaces
   implicit none
   private
 
-  public :: c_rename, c_remove, c_fopen, c_fclose, c_fileno, c_flock, c_isatty
+  public :: c_rename, c_remove, c_fopen, c_fclose, c_fileno, c_flock, c_isatty, c_setenv
 
   interface
     integer(c_int) function c_rename(from, to) bind(c, name="rename")
@@ -48,6 +48,13 @@ module output_interfaces
       implicit none
       integer(c_int), value :: descriptor
     end function c_isatty
+
+    integer(c_int) function c_setenv(name, value, overwrite) bind(c, name="setenv")
+      import :: c_int, c_char
+      implicit none
+      character(kind=c_char), intent(in) :: name(*), value(*)
+      integer(c_int), value :: overwrite
+    end function c_setenv
   end interface
 
 end module output_interfaces

@@ -18,6 +18,7 @@ module output_recorder
     character(len=:), allocatable :: deck, output   !< paths
     logical :: overwrite = .true.
     logical :: progress = .true.
+    logical :: drawn = .true.                       !< with /VTKHDF
     integer :: level = log_normal                   !< one of `log_*`
   end type run_options_t
 
@@ -51,7 +52,7 @@ contains
 
     self%path = options%output
     call self%signals%start()
-    call self%file%open(options%output, options%overwrite, model, error)
+    call self%file%open(options%output, options%overwrite, options%drawn, model, error)
     if (allocated(error)) return
     call self%log%open(options%level, options%progress, options%deck, model)
   end subroutine open_recorder

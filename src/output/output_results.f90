@@ -14,6 +14,7 @@ module output_results
   use output_tables, only: table_t
   use output_model, only: write_deck, write_model
   use output_modes, only: write_modes
+  use output_vtkhdf, only: vtk_writer_t
   implicit none
   private
 
@@ -38,6 +39,8 @@ module output_results
     integer :: steps = 0                        !< kept so far, in all analyses
     character(len=:), allocatable :: group      !< of the present analysis
     logical :: stepping = .true.                !< it has steps, else modes
+    integer :: number = 0                       !< of the present analysis
+    type(vtk_writer_t) :: drawing
     integer :: critical_points = 0              !< of the present analysis
     type(table_t) :: real_table(reals), whole_table(wholes)
     type(table_t), allocatable :: marker_table(:)
@@ -54,10 +57,11 @@ module output_results
 contains
 
   !> Start the file with the model; nothing is left of it after an error.
-  subroutine open_results(self, path, overwrite, model, error)
+  subroutine open_results(self, path, overwrite, drawn, model, error)
     class(result_file_t), intent(inout) :: self
     character(len=*), intent(in) :: path
     logical, intent(in) :: overwrite   !< else an existing file is an error
+    logical, intent(in) :: drawn       !< with /VTKHDF
     type(model_t), intent(in) :: model
     type(error_t), allocatable, intent(out) :: error
     logical :: exists, new
@@ -89,6 +93,7 @@ contains
     call write_deck(self%file, model)
     call write_model(self%file, model)
     call self%file%group("analysis")
+    if (drawn) call self%drawing%start(self%file, model)
     call self%file%flush(error)
     if (allocated(error)) call discard(self)
   end subroutine open_results
@@ -122,6 +127,7 @@ contains
     integer(i8) :: steps
 
     steps = merge(analysis%most_steps, analysis%steps, analysis%control == control_arc)
+    self%number = number
     write (digits, "(i0.2)") number
     self%group = "analysis/"//trim(digits)//"_"//trim(kind_names(analysis%kind))
     if (analysis%name /= "") then
@@ -269,6 +275,7 @@ contains
       do i = 1, size(self%marker)
         call self%marker_table(i)%append(file, results%marker(:, i:i))
       end do
+      call self%drawing%add_state(file, self%number, step%step - 1, results)
       call file%flush(error)
     end associate
     if (.not. allocated(error)) self%steps = self%steps + 1
@@ -281,6 +288,7 @@ contains
     type(error_t), allocatable, intent(out) :: error
 
     call write_modes(self%file, self%group, modes)
+    call self%drawing%add_modes(self%file, self%number, modes)
     call self%file%flush(error)
     if (.not. allocated(error)) self%steps = self%steps + 1
   end subroutine keep_modes
@@ -330,6 +338,7 @@ contains
     do i = 1, merge(size(self%marker), 0, self%stepping)
       call self%marker_table(i)%finish(self%file)
     end do
+    call self%drawing%write_pending(self%file)
     if (complete) call self%file%set_number(self%group, "complete", 1)
     call self%file%flush(error)
   end subroutine finish_analysis

@@ -1,12 +1,14 @@
 !> Datasets that grow by rows while an analysis runs.
 module output_tables
+  use, intrinsic :: iso_fortran_env, only: i1 => int8
   use, intrinsic :: iso_c_binding, only: c_ptr, c_loc
-  use hdf5, only: hid_t, hsize_t, h5pcreate_f, h5pclose_f, h5pset_obj_track_times_f, &
-                  h5pset_chunk_f, h5screate_simple_f, h5sclose_f, h5sselect_hyperslab_f, &
+  use hdf5, only: hid_t, hsize_t, size_t, h5pcreate_f, h5pclose_f, h5pset_obj_track_times_f, &
+                  h5pset_chunk_f, h5pset_chunk_cache_f, h5screate_simple_f, h5sclose_f, h5sselect_hyperslab_f, &
                   h5dcreate_f, h5dset_extent_f, h5dget_space_f, h5dwrite_f, h5dclose_f, &
-                  h5p_dataset_create_f, h5s_select_set_f, h5s_unlimited_f, h5t_native_double, &
-                  h5t_native_integer, h5t_ieee_f64le, h5t_std_i32le
-  use kinds, only: wp, i8
+                  h5p_dataset_create_f, h5p_dataset_access_f, h5s_select_set_f, h5s_unlimited_f, h5t_native_double, &
+                  h5t_native_integer, h5t_ieee_f64le, h5t_ieee_f32le, h5t_std_i32le, &
+                  h5t_std_i64le, h5t_std_u8le, h5t_native_real, h5kind_to_type, h5_integer_kind
+  use kinds, only: wp, sp, i8
   use output_hdf5, only: hdf5_file_t, about_t
   implicit none
   private
@@ -15,6 +17,9 @@ module output_tables
 
   integer, parameter :: bytes_of_real = 8
   integer(hsize_t), parameter :: piece = 32768   !< bytes by which a dataset grows, at most
+
+  !> Pieces kept in memory, of which only the last is needed: little memory for many datasets.
+  integer(size_t), parameter :: slots = 31, kept = 4*piece
 
   type :: table_t
     private
@@ -25,8 +30,13 @@ module output_tables
   contains
     procedure :: start_integers
     procedure :: start_reals
-    procedure, private :: append_integer, append_real, append_reals, append_real_table
-    generic :: append => append_integer, append_real, append_reals, append_real_table
+    procedure :: start_singles
+    procedure :: start_longs
+    procedure :: start_bytes
+    procedure, private :: append_integer, append_bytes, append_longs, append_real, &
+      append_reals, append_real_table, append_singles, append_single_table
+    generic :: append => append_integer, append_bytes, append_longs, append_real, &
+      append_reals, append_real_table, append_singles, append_single_table
     procedure :: finish
   end type table_t
 
@@ -59,15 +69,58 @@ contains
     call start(self, file, path, h5t_ieee_f64le, rows, about)
   end subroutine start_reals
 
+  !> The same in single precision.
+  subroutine start_singles(self, file, path, rows, about, columns)
+    class(table_t), intent(out) :: self
+    type(hdf5_file_t), intent(inout) :: file
+    character(len=*), intent(in) :: path
+    integer(i8), intent(in) :: rows
+    type(about_t), intent(in) :: about
+    integer, intent(in), optional :: columns
+
+    if (present(columns)) then
+      self%rank = 2
+      self%columns = columns
+    end if
+    call start(self, file, path, h5t_ieee_f32le, rows, about)
+  end subroutine start_singles
+
+  !> A list of long whole numbers or, with `columns`, a table.
+  subroutine start_longs(self, file, path, rows, about, columns)
+    class(table_t), intent(out) :: self
+    type(hdf5_file_t), intent(inout) :: file
+    character(len=*), intent(in) :: path
+    integer(i8), intent(in) :: rows
+    type(about_t), intent(in), optional :: about
+    integer, intent(in), optional :: columns
+
+    if (present(columns)) then
+      self%rank = 2
+      self%columns = columns
+    end if
+    call start(self, file, path, h5t_std_i64le, rows, about)
+  end subroutine start_longs
+
+  !> A list of whole numbers from 0 to 255.
+  subroutine start_bytes(self, file, path, rows, about)
+    class(table_t), intent(out) :: self
+    type(hdf5_file_t), intent(inout) :: file
+    character(len=*), intent(in) :: path
+    integer(i8), intent(in) :: rows
+    type(about_t), intent(in) :: about
+
+    call start(self, file, path, h5t_std_u8le, rows, about)
+  end subroutine start_bytes
+
   subroutine start(self, file, path, type, rows, about)
     type(table_t), intent(inout) :: self
     type(hdf5_file_t), intent(inout) :: file
     character(len=*), intent(in) :: path
     integer(hid_t), intent(in) :: type
     integer(i8), intent(in) :: rows
-    type(about_t), intent(in) :: about
+    type(about_t), intent(in), optional :: about
     integer(hsize_t) :: chunk(2), largest(2)
-    integer(hid_t) :: list, space
+    integer(hid_t) :: list, access, space
     integer :: status
 
     if (allocated(file%failure)) return
@@ -78,16 +131,22 @@ contains
     call file%check(status, "h5pset_obj_track_times_f")
     call h5pset_chunk_f(list, self%rank, chunk(3 - self%rank:), status)
     call file%check(status, "h5pset_chunk_f")
+    call h5pcreate_f(h5p_dataset_access_f, access, status)
+    call h5pset_chunk_cache_f(access, slots, kept, 1.0, status)
+    call file%check(status, "h5pset_chunk_cache_f")
     associate (extents => [self%columns, 0_hsize_t])
       call h5screate_simple_f(self%rank, extents(3 - self%rank:), space, status, &
                               largest(3 - self%rank:))
     end associate
     call file%check(status, "h5screate_simple_f")
-    call h5dcreate_f(file%id, path, type, space, self%dataset, status, dcpl_id=list)
+    call h5dcreate_f(file%id, path, type, space, self%dataset, status, dcpl_id=list, &
+                     dapl_id=access)
     call file%check(status, "h5dcreate_f")
     call h5sclose_f(space, status)
     call h5pclose_f(list, status)
-    if (.not. allocated(file%failure)) call file%describe(self%dataset, about)
+    call h5pclose_f(access, status)
+    if (present(about) .and. .not. allocated(file%failure)) &
+      call file%describe(self%dataset, about)
   end subroutine start
 
   subroutine append_integer(self, file, value)
@@ -99,6 +158,29 @@ contains
     buffer = value
     call append_rows(self, file, h5t_native_integer, 1, c_loc(buffer))
   end subroutine append_integer
+
+  !> Rows of a list of bytes.
+  subroutine append_bytes(self, file, values)
+    class(table_t), intent(inout) :: self
+    type(hdf5_file_t), intent(inout) :: file
+    integer(i1), intent(in), contiguous, target :: values(:)
+
+    if (size(values) > 0) then
+      call append_rows(self, file, h5t_std_u8le, size(values), c_loc(values))
+    end if
+  end subroutine append_bytes
+
+  !> Rows of a list or, with one column, of a table.
+  subroutine append_longs(self, file, values)
+    class(table_t), intent(inout) :: self
+    type(hdf5_file_t), intent(inout) :: file
+    integer(i8), intent(in), contiguous, target :: values(:)
+
+    if (size(values) > 0) then
+      call append_rows(self, file, h5kind_to_type(i8, h5_integer_kind), &
+                       size(values)/int(self%columns), c_loc(values))
+    end if
+  end subroutine append_longs
 
   subroutine append_real(self, file, value)
     class(table_t), intent(inout) :: self
@@ -131,6 +213,28 @@ contains
       call append_rows(self, file, h5t_native_double, size(values, 2), c_loc(values))
     end if
   end subroutine append_real_table
+
+  !> Rows of a list.
+  subroutine append_singles(self, file, values)
+    class(table_t), intent(inout) :: self
+    type(hdf5_file_t), intent(inout) :: file
+    real(sp), intent(in), contiguous, target :: values(:)
+
+    if (size(values) > 0) then
+      call append_rows(self, file, h5t_native_real, size(values), c_loc(values))
+    end if
+  end subroutine append_singles
+
+  !> Rows of a table.
+  subroutine append_single_table(self, file, values)
+    class(table_t), intent(inout) :: self
+    type(hdf5_file_t), intent(inout) :: file
+    real(sp), intent(in), contiguous, target :: values(:, :)   !< (columns, rows)
+
+    if (size(values) > 0) then
+      call append_rows(self, file, h5t_native_real, size(values, 2), c_loc(values))
+    end if
+  end subroutine append_single_table
 
   subroutine append_rows(self, file, given, rows, values)
     type(table_t), intent(inout) :: self

@@ -245,7 +245,7 @@ contains
   subroutine test_redundant()
     type(solver_t) :: solver
     real(wp) :: a(48, 48), x(48), b(48), wanted(48)
-    integer, allocatable :: null(:)
+    integer, allocatable :: found(:)
     integer :: i
 
     call saddle_point(40, 8, a)
@@ -257,10 +257,10 @@ contains
     b = matmul(a, wanted)
     do i = 1, size(limits)
       call solve_matrix(solver, a, .true., limits(i), b, x)
-      null = solver%null_pivots()
-      call expect(size(null) == 2, "two null pivots")
-      if (size(null) /= 2) cycle
-      call expect((null(1) == 43 .or. null(1) == 46) .and. null(2) == 48, "their names")
+      found = solver%null_pivots()
+      call expect(size(found) == 2, "two null pivots")
+      if (size(found) /= 2) cycle
+      call expect((found(1) == 43 .or. found(1) == 46) .and. found(2) == 48, "their names")
       call expect(solver%negative_pivots() == 6, "independent constraints")
       call expect_close(x(:40), wanted(:40), 1.0e-10_wp, "coordinates")
       call expect_close(matmul(a, x), b, 1.0e-9_wp, "residual")

@@ -1,0 +1,156 @@
+!> Fields on the mesh of a model: how its points move, and what stresses it.
+module beam_drawing
+  use kinds, only: wp, sp
+  use rotation, only: rotated, turned, rotation_vector
+  use section_data, only: axial_stress
+  use beam_curve, only: beam_ends_t, station_t, beam_station, relative_rotation
+  use beam_mesh, only: mesh_t, profile_t, beam_t
+  implicit none
+  private
+
+  public :: posture_t, draw_motion, draw_mode, draw_forces, draw_stress
+
+  !> Largest angle by which a model is moved along a mode to see how its points follow.
+  real(wp), parameter :: small_angle = 1.0e-4_wp
+
+  !> Where the nodes are.
+  type :: posture_t
+    real(wp), allocatable :: displacement(:, :)   !< (3, nodes) [L]
+    real(wp), allocatable :: euler(:, :)          !< (4, nodes) Euler parameters, scalar first
+    real(wp), allocatable :: warping(:)           !< (nodes) [L^-1]
+  end type posture_t
+
+contains
+
+  !> Displacement [L] and rotation vector [rad] of all points of a mesh.
+  pure subroutine draw_motion(mesh, posture, displacement, rotation)
+    type(mesh_t), intent(in) :: mesh
+    type(posture_t), intent(in) :: posture
+    real(wp), intent(out) :: displacement(:, :), rotation(:, :)   !< (3, points)
+    type(station_t) :: station
+    type(beam_ends_t) :: ends
+    integer :: e, i, n, corners
+
+    do e = 1, size(mesh%beam)
+      n = mesh%beam(e)%first
+      ends = ends_of(mesh%beam(e), posture)
+      associate (profile => mesh%profile(mesh%beam(e)%profile))
+        corners = size(profile%omega)
+        do i = 0, mesh%segments
+          station = beam_station(ends, i/real(mesh%segments, wp))
+          call move_corners(profile, ends%triad, station, displacement(:, n + 1:n + corners))
+          rotation(:, n + 1:n + corners) = spread(rotation_vector(station%euler), 2, corners)
+          n = n + corners
+        end do
+      end associate
+    end do
+  end subroutine draw_motion
+
+  !> A beam as it is now.
+  pure function ends_of(beam, posture) result(ends)
+    type(beam_t), intent(in) :: beam
+    type(posture_t), intent(in) :: posture
+    type(beam_ends_t) :: ends
+
+    ends = beam%ends
+    ends%displacement = posture%displacement(:, beam%node(1, :))
+    ends%euler = posture%euler(:, beam%node(2, :))
+    if (ends%warps) ends%warping = posture%warping(beam%node(3, :))
+  end function ends_of
+
+  !> The corners of a section follow its centroid, its rotation and, by -omega alpha, its warping.
+  pure subroutine move_corners(profile, triad, station, displacement)
+    type(profile_t), intent(in) :: profile
+    real(wp), intent(in) :: triad(3, 3)
+    type(station_t), intent(in) :: station
+    real(wp), intent(out) :: displacement(:, :)   !< (3, corners)
+    real(wp) :: now(3, 3)
+    integer :: k
+
+    now = rotated(station%euler, triad)
+    do k = 1, size(profile%omega)
+      displacement(:, k) = station%displacement &
+                           + profile%corner(1, k)*(now(:, 2) - triad(:, 2)) &
+                           + profile%corner(2, k)*(now(:, 3) - triad(:, 3)) &
+                           - profile%omega(k)*station%warping*now(:, 1)
+    end do
+  end subroutine move_corners
+
+  !> Displacement and spin of all points in a mode, linear about a posture: half the difference of
+  !> what a little of the mode, forth and back, makes of them.
+  pure subroutine draw_mode(mesh, posture, displacement, rotation, warping, moved, spin)
+    type(mesh_t), intent(in) :: mesh
+    type(posture_t), intent(in) :: posture
+    real(wp), intent(in) :: displacement(:, :), rotation(:, :), warping(:)   !< by node
+    real(wp), intent(out) :: moved(:, :), spin(:, :)                         !< (3, points)
+    real(wp), dimension(3, size(moved, 2)) :: back, back_spin
+    type(posture_t) :: near
+    real(wp) :: step, length
+    integer :: e, i, n
+
+    length = tiny(1.0_wp)
+    do e = 1, size(mesh%beam)
+      length = max(length, norm2(mesh%beam(e)%ends%chord))
+    end do
+    step = max(maxval(abs(rotation)), maxval(abs(displacement))/length, &
+               maxval(abs(warping))*length, tiny(1.0_wp)/small_angle)
+    step = small_angle/step
+    near = posture
+    do i = -1, 1, 2
+      near%displacement = posture%displacement + i*step*displacement
+      near%warping = posture%warping + i*step*warping
+      do n = 1, size(warping)
+        near%euler(:, n) = turned(posture%euler(:, n), i*step*rotation(:, n))
+      end do
+      call draw_motion(mesh, near, moved, spin)
+      if (i < 0) back = moved
+      if (i < 0) back_spin = spin
+    end do
+    moved = (moved - back)/(2*step)
+    do n = 1, size(spin, 2)
+      spin(:, n) = relative_rotation(turned([1, 0, 0, 0]*1.0_wp, back_spin(:, n)), &
+                                     turned([1, 0, 0, 0]*1.0_wp, spin(:, n)))/(2*step)
+    end do
+  end subroutine draw_mode
+
+  !> Section forces in the cells, linear along the beams.
+  pure subroutine draw_forces(mesh, force_p, force_q, force)
+    type(mesh_t), intent(in) :: mesh
+    real(wp), intent(in) :: force_p(:, :), force_q(:, :)   !< (7, members) N Vy Vz T My Mz B
+    real(sp), intent(out) :: force(:, :)               !< (7, cells)
+    integer :: i
+
+    do i = 1, size(mesh%owner)
+      associate (e => mesh%owner(i), xi => mesh%middle(i))
+        force(:, i) = real((1 - xi)*force_p(:, e) + xi*force_q(:, e), sp)
+      end associate
+    end do
+  end subroutine draw_forces
+
+  !> Axial stress at the points, from section forces linear along the beams; 0 where the section is
+  !> unknown.
+  pure subroutine draw_stress(mesh, force_p, force_q, stress)
+    type(mesh_t), intent(in) :: mesh
+    real(wp), intent(in) :: force_p(:, :), force_q(:, :)   !< (7, members) N Vy Vz T My Mz B
+    real(sp), intent(out) :: stress(:)                 !< (points) [F L^-2]
+    real(wp) :: force(7), xi
+    integer :: e, i, k, n
+
+    n = 0
+    stress = 0
+    do e = 1, size(mesh%beam)
+      associate (profile => mesh%profile(mesh%beam(e)%profile))
+        do i = 0, mesh%segments
+          xi = i/real(mesh%segments, wp)
+          force = (1 - xi)*force_p(:, e) + xi*force_q(:, e)
+          do k = 1, size(profile%omega)
+            n = n + 1
+            if (profile%constants%a > 0) stress(n) = real(axial_stress(profile%constants, &
+              profile%corner(:, k), profile%omega(k), force([1, 5, 6, 7])), sp)
+          end do
+        end do
+      end associate
+    end do
+  end subroutine draw_stress
+
+end module beam_drawing

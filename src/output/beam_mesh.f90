@@ -1,0 +1,273 @@
+!> The undeformed model as a mesh of VTK: beams as lines or as their sections' outlines swept
+!> along them.
+module beam_mesh
+  use kinds, only: wp
+  use section_data, only: section_constants_t, section_geometry_t, section_open, section_closed
+  use model_data, only: model_t, member_t
+  use beam_curve, only: beam_ends_t
+  implicit none
+  private
+
+  public :: mesh_t, profile_t, beam_t, new_mesh
+
+  !> Cell types of VTK.
+  integer, parameter, public :: line_cell = 3, polygon_cell = 7, quad_cell = 9
+
+  !> Pieces of a beam at most, and in all, where that allows more than one each.
+  integer, parameter :: most_segments = 4, all_segments = 1000
+
+  !> What is swept along a beam: closed polygons, or the centroid alone.
+  type :: profile_t
+    integer :: kind = 0                     !< one of `section_*`
+    real(wp), allocatable :: corner(:, :)   !< (2, corners) principal axes [L]
+    real(wp), allocatable :: omega(:)       !< (corners) [L^2], 0 where unknown
+    integer, allocatable :: last(:)         !< last corner of each polygon; none: a line
+    type(section_constants_t) :: constants  !< no area: unknown
+  end type profile_t
+
+  !> A beam of the model.
+  type :: beam_t
+    integer :: node(3, 2) = 0     !< by kind and end, as in the model
+    integer :: profile = 0        !< index
+    integer :: first = 0          !< points of the mesh before its own
+    type(beam_ends_t) :: ends     !< undeformed
+  end type beam_t
+
+  type :: mesh_t
+    integer :: segments = 1                     !< pieces of a beam
+    type(profile_t), allocatable :: profile(:)  !< of the sections; the last is a line
+    type(beam_t), allocatable :: beam(:)
+    real(wp), allocatable :: position(:, :)     !< (3, points), by beam, station, corner [L]
+    integer, allocatable :: corners(:)          !< points of the cells from 0, cell by cell
+    integer, allocatable :: offset(:)           !< by cell: entries of `corners` before; one more
+    integer, allocatable :: kind(:)             !< by cell: type of VTK
+    integer, allocatable :: owner(:)            !< by cell: its beam
+    real(wp), allocatable :: middle(:)          !< by cell: its place along the beam, 0 to 1
+  end type mesh_t
+
+contains
+
+  !> Points and cells of a model.
+  pure subroutine new_mesh(model, mesh)
+    type(model_t), intent(in) :: model
+    type(mesh_t), intent(out) :: mesh
+    integer :: e, points
+
+    mesh%segments = min(most_segments, max(1, all_segments/max(1, size(model%member))))
+    allocate (mesh%profile(size(model%section) + 1))
+    do e = 1, size(model%section)
+      call new_profile(model%section(e)%constants, model%section(e)%geometry, mesh%profile(e))
+    end do
+    call new_line(mesh%profile(size(mesh%profile)))
+    allocate (mesh%beam(size(model%member)))
+    points = 0
+    do e = 1, size(model%member)
+      call new_beam(model, model%member(e), mesh%beam(e))
+      if (mesh%beam(e)%profile == 0) mesh%beam(e)%profile = size(mesh%profile)
+      mesh%beam(e)%first = points
+      points = points + (mesh%segments + 1)*size(mesh%profile(mesh%beam(e)%profile)%omega)
+    end do
+    allocate (mesh%position(3, points))
+    call place_points(model, mesh)
+    call make_cells(model, mesh)
+  end subroutine new_mesh
+
+  pure subroutine new_beam(model, member, beam)
+    type(model_t), intent(in) :: model
+    type(member_t), intent(in) :: member
+    type(beam_t), intent(out) :: beam
+
+    beam%node = member%node
+    beam%profile = member%section
+    beam%ends%chord = member%chord
+    beam%ends%triad = member%triad
+    if (member%rigid .or. any(member%node(3, :) == 0)) return
+    if (member%has_stiffness) then
+      beam%ends%warps = member%stiffness(7) > 0
+    else if (member%section > 0) then
+      associate (c => model%section(member%section)%constants)
+        beam%ends%warps = c%iw > 0
+        beam%ends%shear_centre = [c%ys, c%zs]
+      end associate
+    end if
+  end subroutine new_beam
+
+  pure subroutine new_line(profile)
+    type(profile_t), intent(out) :: profile
+
+    allocate (profile%corner(2, 1), profile%omega(1), profile%last(0))
+    profile%corner = 0
+    profile%omega = 0
+  end subroutine new_line
+
+  !> The outline of a section, a line where it has none. The walls of an open one are a rectangle
+  !> each, from end to end and back: the warping coordinate is that of their ends.
+  pure subroutine new_profile(constants, geometry, profile)
+    type(section_constants_t), intent(in) :: constants
+    type(section_geometry_t), intent(in) :: geometry
+    type(profile_t), intent(out) :: profile
+    integer :: i
+
+    if (allocated(geometry%outline)) then
+      profile%kind = geometry%kind
+      profile%corner = geometry%outline
+      profile%last = geometry%outline_last
+      allocate (profile%omega(size(profile%corner, 2)))
+      profile%omega = 0
+      if (geometry%warping_known .and. geometry%kind == section_open) then
+        do i = 1, size(geometry%plates, 2)
+          profile%omega(4*i - 3:4*i) = geometry%omega(geometry%plates([1, 2, 2, 1], i))
+        end do
+      else if (geometry%warping_known .and. allocated(geometry%plates)) then
+        profile%omega = reshape(geometry%omega, shape(profile%omega), pad=geometry%omega)
+      end if
+    else
+      call new_line(profile)
+    end if
+    profile%constants = constants
+  end subroutine new_profile
+
+  !> Where the points are before deformation.
+  pure subroutine place_points(model, mesh)
+    type(model_t), intent(in) :: model
+    type(mesh_t), intent(inout) :: mesh
+    real(wp) :: centre(3)
+    integer :: e, i, k, n
+
+    do e = 1, size(model%member)
+      n = mesh%beam(e)%first
+      associate (m => model%member(e), profile => mesh%profile(mesh%beam(e)%profile))
+        do i = 0, mesh%segments
+          centre = model%node(m%node(1, 1))%position + m%chord*i/mesh%segments
+          do k = 1, size(profile%omega)
+            n = n + 1
+            mesh%position(:, n) = centre + matmul(m%triad(:, 2:3), profile%corner(:, k))
+          end do
+        end do
+      end associate
+    end do
+  end subroutine place_points
+
+  pure subroutine make_cells(model, mesh)
+    type(model_t), intent(in) :: model
+    type(mesh_t), intent(inout) :: mesh
+    integer :: e, i, cells, ends(size(model%node))
+
+    ends = 0
+    do e = 1, size(model%member)
+      do i = 1, 2
+        associate (node => model%member(e)%node(1, i))
+          ends(node) = ends(node) + 1
+        end associate
+      end do
+    end do
+    allocate (mesh%corners(0), mesh%offset(1), mesh%kind(0), mesh%owner(0), mesh%middle(0))
+    mesh%offset(1) = 0
+    cells = 0
+    do e = 1, size(model%member)
+      if (size(mesh%profile(mesh%beam(e)%profile)%last) == 0) then
+        call add_lines(mesh, e, cells)
+      else
+        call add_surface(mesh, e, cells)
+        do i = 1, 2
+          if (ends(model%member(e)%node(1, i)) == 1) call add_cap(mesh, e, i, cells)
+        end do
+      end if
+    end do
+    mesh%corners = mesh%corners(:mesh%offset(cells + 1))
+    mesh%offset = mesh%offset(:cells + 1)
+    mesh%kind = mesh%kind(:cells)
+    mesh%owner = mesh%owner(:cells)
+    mesh%middle = mesh%middle(:cells)
+  end subroutine make_cells
+
+  pure subroutine add_lines(mesh, e, cells)
+    type(mesh_t), intent(inout) :: mesh
+    integer, intent(in) :: e
+    integer, intent(inout) :: cells
+    integer :: i
+
+    do i = 1, mesh%segments
+      call add_cell(mesh, mesh%beam(e)%first + [i - 1, i], line_cell, e, (i - 0.5_wp)/mesh%segments, &
+                    cells)
+    end do
+  end subroutine add_lines
+
+  !> A quadrangle for each side of the polygons and each piece of the beam.
+  pure subroutine add_surface(mesh, e, cells)
+    type(mesh_t), intent(inout) :: mesh
+    integer, intent(in) :: e
+    integer, intent(inout) :: cells
+    integer :: i, j, k, from, next, at, more
+
+    associate (last => mesh%profile(mesh%beam(e)%profile)%last)
+      more = last(size(last))
+      do i = 1, mesh%segments
+        at = mesh%beam(e)%first + (i - 1)*more - 1
+        from = 1
+        do j = 1, size(last)
+          do k = from, last(j)
+            next = merge(from, k + 1, k == last(j))
+            call add_cell(mesh, at + [k, next, next + more, k + more], quad_cell, e, &
+                          (i - 0.5_wp)/mesh%segments, cells)
+          end do
+          from = last(j) + 1
+        end do
+      end do
+    end associate
+  end subroutine add_surface
+
+  !> The section itself at end p (1) or q (2); of two polygons with a hole, the ring between.
+  pure subroutine add_cap(mesh, e, end, cells)
+    type(mesh_t), intent(inout) :: mesh
+    integer, intent(in) :: e, end
+    integer, intent(inout) :: cells
+    integer :: j, k, n, from, at
+    real(wp) :: xi
+
+    xi = end - 1
+    associate (profile => mesh%profile(mesh%beam(e)%profile), last => mesh%profile(mesh%beam(e)%profile)%last)
+      at = mesh%beam(e)%first - 1
+      if (end == 2) at = at + mesh%segments*last(size(last))
+      if (profile%kind == section_closed) then
+        n = last(1)
+        do k = 1, n
+          j = modulo(k, n) + 1
+          call add_cell(mesh, at + [k, j, n + j, n + k], quad_cell, e, xi, cells)
+        end do
+        return
+      end if
+      from = 1
+      do j = 1, size(last)
+        call add_cell(mesh, at + [(k, k=from, last(j))], &
+                      merge(quad_cell, polygon_cell, last(j) - from == 3), e, xi, cells)
+        from = last(j) + 1
+      end do
+    end associate
+  end subroutine add_cap
+
+  pure subroutine add_cell(mesh, points, kind, beam, middle, cells)
+    type(mesh_t), intent(inout) :: mesh
+    integer, intent(in) :: points(:), kind, beam
+    real(wp), intent(in) :: middle
+    integer, intent(inout) :: cells
+    integer :: n
+
+    n = mesh%offset(cells + 1)
+    if (cells == size(mesh%kind)) then
+      mesh%offset = [mesh%offset, spread(0, 1, cells + 16)]
+      mesh%kind = [mesh%kind, spread(0, 1, cells + 16)]
+      mesh%owner = [mesh%owner, spread(0, 1, cells + 16)]
+      mesh%middle = [mesh%middle, spread(0.0_wp, 1, cells + 16)]
+    end if
+    if (n + size(points) > size(mesh%corners)) &
+      mesh%corners = [mesh%corners, spread(0, 1, n + size(points))]
+    mesh%corners(n + 1:n + size(points)) = points
+    cells = cells + 1
+    mesh%offset(cells + 1) = n + size(points)
+    mesh%kind(cells) = kind
+    mesh%owner(cells) = beam
+    mesh%middle(cells) = middle
+  end subroutine add_cell
+
+end module beam_mesh

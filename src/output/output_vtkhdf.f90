@@ -1,0 +1,379 @@
+!> Group /VTKHDF of the result file: the model as a mesh and how it moves, as VTK's readers
+!> (ParaView, PyVista) take it: an UnstructuredGrid of version 2.0 with steps.
+!>
+!> A step for each recorded state and for each mode. Points and displacement together are where a
+!> step's points are drawn: the points are those of the undeformed model or, for a mode about a
+!> deformed state, those of that state, written behind the former.
+module output_vtkhdf
+  use, intrinsic :: iso_fortran_env, only: i1 => int8
+  use, intrinsic :: iso_c_binding, only: c_ptr, c_loc, c_char
+  use hdf5, only: hid_t, hsize_t, size_t, h5oopen_f, h5oclose_f, h5acreate_f, h5awrite_f, &
+                  h5aclose_f, h5screate_f, h5screate_simple_f, h5sclose_f, h5tcopy_f, h5tclose_f, &
+                  h5tset_size_f, h5tset_strpad_f, h5lcreate_hard_f, h5s_scalar_f, &
+                  h5t_fortran_s1, h5t_str_nullpad_f, h5t_std_i64le, h5kind_to_type, &
+                  h5_integer_kind
+  use kinds, only: wp, sp, i8
+  use rotation, only: no_rotation
+  use model_data, only: model_t, control_arc, analysis_static
+  use system_results, only: results_t
+  use mode_results, only: modes_t
+  use output_hdf5, only: hdf5_file_t, about_t
+  use output_tables, only: table_t
+  use beam_mesh, only: mesh_t, new_mesh, line_cell
+  use beam_drawing, only: posture_t, draw_motion, draw_mode, draw_forces, draw_stress
+  implicit none
+  private
+
+  public :: vtk_writer_t
+
+  character(len=*), parameter :: root = "VTKHDF", steps_group = root//"/Steps", &
+                                 type_name = "UnstructuredGrid"
+
+  !> Tables of long whole numbers, a row for each step.
+  integer, parameter :: part_offsets = 1, parts = 2, point_offsets = 3, cell_offsets = 4, &
+                        field_offsets = 5, cell_field_offsets = 6, longs = 6
+
+  !> Points gathered before they are written: files of small models would rather wait for the disk.
+  integer, parameter :: gathered_points = 2048
+
+  type :: vtk_writer_t
+    private
+    logical :: active = .false.
+    type(mesh_t) :: mesh
+    type(posture_t) :: posture                  !< of the last recorded state
+    logical :: stressed = .false.               !< a section has an outline
+    integer :: points = 0, cells = 0            !< of the mesh
+    integer :: steps = 0                        !< written
+    integer :: pending = 0, most_pending = 1    !< gathered
+    integer(i8) :: point_sets = 1               !< written: undeformed, then about which modes are
+    real(wp), allocatable :: turn(:, :)         !< (3, points) rotation vectors of a step
+    real(wp), allocatable :: motion(:, :)       !< gathered, (3, points)
+    real(sp), allocatable :: rotation(:, :), stress(:), force(:, :)  !< gathered
+    integer(i8), allocatable :: entry(:, :)     !< gathered, (steps, longs)
+    integer(i8), allocatable :: origin(:, :)    !< gathered, (2, steps)
+    type(table_t) :: point_table, values, origin_table, long(longs), &
+                     motion_table, rotation_table, stress_table, force_table
+  contains
+    procedure :: start
+    procedure :: add_state
+    procedure :: add_modes
+    procedure :: write_pending
+  end type vtk_writer_t
+
+contains
+
+  !> Write the mesh and make the tables; a model without elements has nothing to draw.
+  subroutine start(self, file, model)
+    class(vtk_writer_t), intent(inout) :: self
+    type(hdf5_file_t), intent(inout) :: file
+    type(model_t), intent(in) :: model
+    integer(i8) :: steps
+
+    self%active = size(model%member) > 0
+    if (.not. self%active) return
+    call new_mesh(model, self%mesh)
+    call make_room(self, size(model%node))
+    steps = expected_steps(model)
+    call write_head(file)
+    call write_mesh(self, file)
+    call start_fields(self, file, steps)
+    call start_steps(self, file, steps)
+  end subroutine start
+
+  subroutine make_room(self, nodes)
+    type(vtk_writer_t), intent(inout) :: self
+    integer, intent(in) :: nodes
+
+    allocate (self%posture%displacement(3, nodes), self%posture%warping(nodes))
+    self%posture%displacement = 0
+    self%posture%euler = spread(no_rotation, 2, nodes)
+    self%posture%warping = 0
+    self%stressed = any(self%mesh%kind /= line_cell)
+    self%points = size(self%mesh%position, 2)
+    self%cells = size(self%mesh%kind)
+    self%most_pending = max(1, gathered_points/self%points)
+    allocate (self%turn(3, self%points))
+    associate (points => self%points*self%most_pending, cells => self%cells*self%most_pending)
+      allocate (self%motion(3, points), self%rotation(3, points), self%stress(points), &
+                self%force(7, cells))
+    end associate
+    allocate (self%entry(self%most_pending, longs), self%origin(2, self%most_pending))
+  end subroutine make_room
+
+  !> About how many steps there will be.
+  pure integer(i8) function expected_steps(model)
+    type(model_t), intent(in) :: model
+    integer :: i
+
+    expected_steps = 0
+    do i = 1, size(model%analysis)
+      associate (a => model%analysis(i))
+        if (a%kind /= analysis_static) then
+          expected_steps = expected_steps + a%modes
+        else
+          expected_steps = expected_steps + merge(a%most_steps, a%steps, a%control == control_arc)
+        end if
+      end associate
+    end do
+    expected_steps = max(1_i8, expected_steps)
+  end function expected_steps
+
+  !> The group and its attributes: the type is plain ASCII, the version long whole numbers.
+  subroutine write_head(file)
+    type(hdf5_file_t), intent(inout) :: file
+    integer(i8), target :: version(2)
+    character(kind=c_char), target :: name(len(type_name))
+    integer(hid_t) :: object, space, type
+    integer :: status, i
+
+    call file%group(root)
+    call file%group(steps_group)
+    call file%group(root//"/PointData")
+    call file%group(root//"/CellData")
+    call file%group(steps_group//"/PointDataOffsets")
+    call file%group(steps_group//"/CellDataOffsets")
+    call file%set_number(steps_group, "NSteps", 0)
+    if (allocated(file%failure)) return
+    version = [2, 0]
+    name = [(type_name(i:i), i=1, len(type_name))]
+    call h5oopen_f(file%id, root, object, status)
+    call file%check(status, "h5oopen_f")
+    call h5screate_simple_f(1, [2_hsize_t], space, status)
+    call write_attribute(file, object, "Version", h5t_std_i64le, &
+                         h5kind_to_type(i8, h5_integer_kind), space, c_loc(version))
+    call h5tcopy_f(h5t_fortran_s1, type, status)
+    call h5tset_size_f(type, len(type_name, size_t), status)
+    call h5tset_strpad_f(type, h5t_str_nullpad_f, status)
+    call h5screate_f(h5s_scalar_f, space, status)
+    call write_attribute(file, object, "Type", type, type, space, c_loc(name))
+    call h5tclose_f(type, status)
+    call h5oclose_f(object, status)
+  end subroutine write_head
+
+  subroutine write_attribute(file, object, name, stored, given, space, values)
+    type(hdf5_file_t), intent(inout) :: file
+    integer(hid_t), intent(in) :: object, stored, given, space
+    character(len=*), intent(in) :: name
+    type(c_ptr), intent(in) :: values
+    integer(hid_t) :: attribute
+    integer :: status
+
+    call h5acreate_f(object, name, stored, space, attribute, status)
+    call file%check(status, "h5acreate_f")
+    call h5sclose_f(space, status)
+    if (allocated(file%failure)) return
+    call h5awrite_f(attribute, given, values, status)
+    call file%check(status, "h5awrite_f")
+    call h5aclose_f(attribute, status)
+  end subroutine write_attribute
+
+  subroutine write_mesh(self, file)
+    type(vtk_writer_t), intent(inout) :: self
+    type(hdf5_file_t), intent(inout) :: file
+
+    associate (mesh => self%mesh)
+      call write_long(file, "NumberOfPoints", [size(mesh%position, 2)], "number of points")
+      call write_long(file, "NumberOfCells", [size(mesh%kind)], "number of cells")
+      call write_long(file, "NumberOfConnectivityIds", [size(mesh%corners)], &
+                      "entries of Connectivity")
+      call write_long(file, "Connectivity", mesh%corners, "points of the cells, from 0")
+      call write_long(file, "Offsets", mesh%offset, "by cell: start in Connectivity")
+      call write_types(file, mesh%kind)
+      call self%point_table%start_reals(file, root//"/Points", size(mesh%position, 2, i8), &
+        about_t("L", "point; X Y Z", "positions of the undeformed model"), 3)
+      call self%point_table%append(file, mesh%position)
+    end associate
+  end subroutine write_mesh
+
+  subroutine write_long(file, name, values, description)
+    type(hdf5_file_t), intent(inout) :: file
+    character(len=*), intent(in) :: name, description
+    integer, intent(in) :: values(:)
+    type(table_t) :: table
+
+    call table%start_longs(file, root//"/"//name, size(values, kind=i8), &
+                           about_t("1", "entry", description))
+    call table%append(file, int(values, i8))
+    call table%finish(file)
+  end subroutine write_long
+
+  subroutine write_types(file, kind)
+    type(hdf5_file_t), intent(inout) :: file
+    integer, intent(in) :: kind(:)
+    type(table_t) :: table
+
+    call table%start_bytes(file, root//"/Types", size(kind, kind=i8), &
+      about_t("1", "cell", "3: a line, 7: a polygon, 9: a quadrangle"))
+    call table%append(file, int(kind, i1))
+    call table%finish(file)
+  end subroutine write_types
+
+  subroutine start_fields(self, file, steps)
+    type(vtk_writer_t), intent(inout) :: self
+    type(hdf5_file_t), intent(inout) :: file
+    integer(i8), intent(in) :: steps
+
+    associate (points => steps*size(self%mesh%position, 2), cells => steps*size(self%mesh%kind))
+      call self%motion_table%start_reals(file, root//"/PointData/displacement", points, &
+        about_t("L", "step*point; X Y Z", "from Points; of modes as in /analysis"), 3)
+      call self%rotation_table%start_singles(file, root//"/PointData/rotation", points, &
+        about_t("1", "step*point; X Y Z", "rotation vector of the section in radians"), 3)
+      if (self%stressed) call self%stress_table%start_singles(file, &
+        root//"/PointData/axial_stress", points, about_t("FL-2", "step*point", &
+        "from section forces linear along the beam; 0 in modes"))
+      call self%force_table%start_singles(file, root//"/CellData/section_force", cells, &
+        about_t("F F F FL FL FL FL2", "step*cell; N Vy Vz T My Mz B", &
+                "linear along the beam; 0 in modes"), 7)
+    end associate
+  end subroutine start_fields
+
+  !> Tables with a row for each step. VTK wants to know where in the tables a step's rows begin.
+  subroutine start_steps(self, file, steps)
+    type(vtk_writer_t), intent(inout) :: self
+    type(hdf5_file_t), intent(inout) :: file
+    integer(i8), intent(in) :: steps
+
+    call self%values%start_reals(file, steps_group//"/Values", steps, &
+      about_t("1", "step", "number of the step, from 1"))
+    call self%origin_table%start_longs(file, steps_group//"/Origin", steps, &
+      about_t("1", "step; analysis row", "number of the group in /analysis, and of the state or"// &
+              " mode in it, from 0"), 2)
+    call start_long(self, file, part_offsets, "PartOffsets", steps)
+    call start_long(self, file, parts, "NumberOfParts", steps)
+    call start_long(self, file, point_offsets, "PointOffsets", steps)
+    call start_long(self, file, cell_offsets, "CellOffsets", steps, 1)
+    call start_long(self, file, field_offsets, "PointDataOffsets/displacement", steps)
+    call start_long(self, file, cell_field_offsets, "CellDataOffsets/section_force", steps)
+    call link(file, "CellOffsets", "ConnectivityIdOffsets")
+    call link(file, "PointDataOffsets/displacement", "PointDataOffsets/rotation")
+    if (self%stressed) call link(file, "PointDataOffsets/displacement", &
+                                 "PointDataOffsets/axial_stress")
+  end subroutine start_steps
+
+  subroutine start_long(self, file, which, name, steps, columns)
+    type(vtk_writer_t), intent(inout) :: self
+    type(hdf5_file_t), intent(inout) :: file
+    integer, intent(in) :: which
+    character(len=*), intent(in) :: name
+    integer(i8), intent(in) :: steps
+    integer, intent(in), optional :: columns
+
+    call self%long(which)%start_longs(file, steps_group//"/"//name, steps, columns=columns)
+  end subroutine start_long
+
+  !> A second name of a dataset.
+  subroutine link(file, old, new)
+    type(hdf5_file_t), intent(inout) :: file
+    character(len=*), intent(in) :: old, new
+    integer :: status
+
+    if (allocated(file%failure)) return
+    call h5lcreate_hard_f(file%id, steps_group//"/"//old, file%id, steps_group//"/"//new, status)
+    call file%check(status, "h5lcreate_hard_f")
+  end subroutine link
+
+  !> A recorded state of analysis `number`; `row`: its place there, from 0.
+  subroutine add_state(self, file, number, row, results)
+    class(vtk_writer_t), intent(inout) :: self
+    type(hdf5_file_t), intent(inout) :: file
+    integer, intent(in) :: number, row
+    type(results_t), intent(in) :: results
+    integer :: points
+
+    if (.not. self%active) return
+    self%posture%displacement = results%displacement
+    self%posture%euler = results%euler
+    self%posture%warping = results%warping
+    points = self%pending*self%points
+    call draw_motion(self%mesh, self%posture, self%motion(:, points + 1:points + self%points), &
+                     self%turn)
+    if (self%stressed) call draw_stress(self%mesh, results%force_p, results%force_q, &
+                                        self%stress(points + 1:points + self%points))
+    call draw_forces(self%mesh, results%force_p, results%force_q, &
+                     self%force(:, self%pending*self%cells + 1:))
+    call add_step(self, file, number, row, 0_i8)
+  end subroutine add_state
+
+  !> The modes of analysis `number`, about the state recorded last.
+  subroutine add_modes(self, file, number, modes)
+    class(vtk_writer_t), intent(inout) :: self
+    type(hdf5_file_t), intent(inout) :: file
+    integer, intent(in) :: number
+    type(modes_t), intent(in) :: modes
+    integer(i8) :: set
+    integer :: i, points
+
+    if (.not. self%active .or. modes%modes == 0) return
+    call write_pending(self, file)
+    call add_points(self, file, set)
+    self%stress = 0
+    self%force = 0
+    do i = 1, modes%modes
+      points = self%pending*self%points
+      call draw_mode(self%mesh, self%posture, modes%displacement(:, :, i), &
+                     modes%rotation(:, :, i), modes%warping(:, i), &
+                     self%motion(:, points + 1:points + self%points), self%turn)
+      call add_step(self, file, number, i - 1, set)
+    end do
+    call write_pending(self, file)
+  end subroutine add_modes
+
+  !> The points of a deformed state, for the modes about it; `set`: its number, 0 if undeformed.
+  subroutine add_points(self, file, set)
+    type(vtk_writer_t), intent(inout) :: self
+    type(hdf5_file_t), intent(inout) :: file
+    integer(i8), intent(out) :: set
+
+    set = 0
+    associate (motion => self%motion(:, :self%points))
+      call draw_motion(self%mesh, self%posture, motion, self%turn)
+      if (.not. any(abs(motion) > 0)) return
+      call self%point_table%append(file, self%mesh%position + motion)
+    end associate
+    set = self%point_sets
+    self%point_sets = set + 1
+  end subroutine add_points
+
+  !> A step has been drawn: where its rows begin in the tables, points first.
+  subroutine add_step(self, file, number, row, set)
+    type(vtk_writer_t), intent(inout) :: self
+    type(hdf5_file_t), intent(inout) :: file
+    integer, intent(in) :: number, row
+    integer(i8), intent(in) :: set   !< of points
+    integer(i8) :: before
+    integer :: points
+
+    before = self%steps + self%pending
+    points = self%pending*self%points
+    self%rotation(:, points + 1:points + self%points) = real(self%turn, sp)
+    self%pending = self%pending + 1
+    self%origin(:, self%pending) = [number, row]
+    self%entry(self%pending, :) = [0_i8, 1_i8, set*self%points, 0_i8, before*self%points, &
+                                   before*self%cells]
+    if (self%pending == self%most_pending) call write_pending(self, file)
+  end subroutine add_step
+
+  !> Write what was gathered; the count of steps comes last, when all they need is there.
+  subroutine write_pending(self, file)
+    class(vtk_writer_t), intent(inout) :: self
+    type(hdf5_file_t), intent(inout) :: file
+    integer :: i, n, points
+
+    n = self%pending
+    if (n == 0) return
+    points = n*self%points
+    call self%motion_table%append(file, self%motion(:, :points))
+    call self%rotation_table%append(file, self%rotation(:, :points))
+    if (self%stressed) call self%stress_table%append(file, self%stress(:points))
+    call self%force_table%append(file, self%force(:, :n*self%cells))
+    do i = 1, longs
+      call self%long(i)%append(file, self%entry(:n, i))
+    end do
+    call self%origin_table%append(file, reshape(self%origin(:, :n), [2*n]))
+    call self%values%append(file, [(real(self%steps + i, wp), i=1, n)])
+    self%steps = self%steps + n
+    self%pending = 0
+    call file%set_number(steps_group, "NSteps", self%steps)
+  end subroutine write_pending
+
+end module output_vtkhdf
