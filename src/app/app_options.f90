@@ -131,8 +131,9 @@ contains
     case ("keywords")
     case ("compare", "digest", "info")
       if (command%argument == "") call refuse("no result file given", "", error, command%action)
-      if (command%action == "compare" .and. command%argument /= "" .and. command%name == "") &
+      if (command%action == "compare" .and. command%argument /= "" .and. command%name == "") then
         call refuse("two result files are needed", "", error, command%action)
+      end if
     case default
       if (command%argument == "") call refuse("no deck given", "", error, command%action)
     end select

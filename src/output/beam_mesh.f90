@@ -260,8 +260,9 @@ contains
       mesh%owner = [mesh%owner, spread(0, 1, cells + 16)]
       mesh%middle = [mesh%middle, spread(0.0_wp, 1, cells + 16)]
     end if
-    if (n + size(points) > size(mesh%corners)) &
+    if (n + size(points) > size(mesh%corners)) then
       mesh%corners = [mesh%corners, spread(0, 1, n + size(points))]
+    end if
     mesh%corners(n + 1:n + size(points)) = points
     cells = cells + 1
     mesh%offset(cells + 1) = n + size(points)

@@ -45,8 +45,9 @@ contains
 
     clean = path
     if (index(path, "/") /= 1) clean = "/"//clean
-    if (len(clean) > 1 .and. index(clean, "/", back=.true.) == len(clean)) &
+    if (len(clean) > 1 .and. index(clean, "/", back=.true.) == len(clean)) then
       clean = clean(:len(clean) - 1)
+    end if
   end function clean
 
   !> What is asked for has to be in one of the files: else a misspelt path would pass every test.
@@ -222,9 +223,10 @@ contains
     integer(i8) :: i
 
     do i = 1, size(first%word, kind=i8)
-      if (first%word(i)%s /= second%word(i)%s) &
+      if (first%word(i)%s /= second%word(i)%s) then
         call found%add(first%path, "text", index_text(first, i), quoted(first%word(i)%s), &
                        quoted(second%word(i)%s))
+      end if
     end do
   end subroutine compare_words
 
@@ -244,8 +246,9 @@ contains
     if (first%kind == kind_whole) relative = 0
     do i = 1, size(first%value, kind=i8)
       k = 1 + int(modulo(i - 1, int(first%columns(), i8)))
-      if (.not. near(first%value(i), second%value(i), relative, allowed(k))) &
+      if (.not. near(first%value(i), second%value(i), relative, allowed(k))) then
         call found%add_values(first%path, index_text(first, i), first%value(i), second%value(i))
+      end if
     end do
   end subroutine compare_values
 
@@ -282,8 +285,9 @@ contains
                          norm2(a - b)/size_of, .true.)
         else
           do k = 1, 2
-            if (.not. near(a(k), b(k), tolerance%relative, allowed)) &
+            if (.not. near(a(k), b(k), tolerance%relative, allowed)) then
               call found%add_values(first%path, index_text(first, i + k - 1), a(k), b(k))
+            end if
           end do
         end if
       end associate

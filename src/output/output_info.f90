@@ -59,8 +59,9 @@ contains
       if (allocated(error)) exit
     end do
     call reader%close()
-    if (info%layout < 1 .and. .not. allocated(error)) &
+    if (info%layout < 1 .and. .not. allocated(error)) then
       call fail(error, exit_io, "cannot read '"//path//"': it is no result file of spar")
+    end if
   end subroutine read_info
 
   integer function rows(reader, path)

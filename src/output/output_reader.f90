@@ -138,8 +138,9 @@ contains
         more(size(more))%s = group//"/"//trim(name)
         call move_alloc(more, paths)
       end if
-      if (below .and. kind == h5g_group_f) &
+      if (below .and. kind == h5g_group_f) then
         call add_members(self, group//"/"//trim(name), below, wanted, paths)
+      end if
     end do
   end subroutine add_members
 

@@ -145,8 +145,9 @@ contains
     call h5sclose_f(space, status)
     call h5pclose_f(list, status)
     call h5pclose_f(access, status)
-    if (present(about) .and. .not. allocated(file%failure)) &
+    if (present(about) .and. .not. allocated(file%failure)) then
       call file%describe(self%dataset, about)
+    end if
   end subroutine start
 
   subroutine append_integer(self, file, value)
