@@ -2,7 +2,8 @@
 module analysis_run
   use kinds, only: wp
   use errors, only: error_t, fail, exit_deck
-  use model_data, only: model_t, analysis_t, control_arc, analysis_buckling, analysis_eigen
+  use model_data, only: model_t, analysis_t, control_arc, analysis_static, analysis_buckling, &
+                        analysis_eigen
   use linalg_solver, only: solver_t
   use system_data, only: system_t
   use system_build, only: build_system, find_system_pattern
@@ -56,6 +57,8 @@ contains
                         system%pattern%symmetric, error)
     if (allocated(error) .or. all(model%analysis%kind == analysis_eigen)) return
     call refuse_free_motion(model, system, solver, iterate, error)
+    if (any(model%analysis%kind /= analysis_static)) return
+    deallocate (system%pattern%row, system%pattern%column)  ! the solver has its own
   end subroutine set_up
 
   subroutine run_in_order(model, system, solver, iterate, recorder, error)

@@ -8,8 +8,8 @@ module errors
   public :: error_t, fail, annotate
 
   !> What went wrong; the values are the exit statuses of the program.
-  integer, parameter, public :: exit_different = 1, exit_usage = 2, exit_deck = 3, exit_solve = 4, exit_io = 5, &
-                                exit_interrupt = 130
+  integer, parameter, public :: exit_different = 1, exit_usage = 2, exit_deck = 3, &
+                                exit_solve = 4, exit_io = 5, exit_interrupt = 130
 
   type :: error_t
     integer :: status = 1                     !< exit status, one of `exit_*`

@@ -1,4 +1,5 @@
-!> Working precision. Every real in the program is `real(wp)`, but for fields that are only looked at.
+!> Working precision. Every real in the program is `real(wp)`, but for fields that are only looked
+!> at.
 module kinds
   use, intrinsic :: iso_fortran_env, only: real64, real32, int64
   implicit none

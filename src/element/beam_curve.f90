@@ -13,6 +13,7 @@ module beam_curve
     real(wp) :: triad(3, 3) = 0.0_wp        !< initial axes
     real(wp) :: shear_centre(2) = 0.0_wp    !< y, z from the centroid [L]
     logical :: warps = .false.              !< carries a bimoment
+    real(wp) :: shear = 0.0_wp              !< share of warping shear, Phi/(1 + Phi), theory 4
     real(wp) :: displacement(3, 2) = 0.0_wp !< of p and q [L]
     real(wp) :: euler(0:3, 2) = 0.0_wp      !< Euler parameters
     real(wp) :: warping(2) = 0.0_wp         !< alpha [L^-1]
@@ -29,13 +30,14 @@ contains
 
   !> The section at xi = x/l0. The line of centroids is the cubic of theory 9 with end slopes
   !> R (eX + alpha s), s = zs eY - ys eZ. The section turns evenly from end to end, is tilted until
-  !> it is normal to that line without alpha s, and twisted to the cubic twist of theory 5 c without
-  !> shear strains of warping.
+  !> it is normal to the cubic of the shear centres, whose slopes are R eX, and twisted to the cubic
+  !> twist of theory 5 c with the mean shear strain of warping.
   pure function beam_station(ends, xi) result(station)
     type(beam_ends_t), intent(in) :: ends
     real(wp), intent(in) :: xi
     type(station_t) :: station
-    real(wp) :: triad(3, 3, 2), now(3, 3), slope(3, 2), s(2), length, h(2:4), d(2:4), tangent(3)
+    real(wp) :: triad(3, 3, 2), now(3, 3), slope(3, 2), s(2), length, h(2:4), d(2:4), turn(3)
+    real(wp) :: tangent(3)
     integer :: e
 
     length = norm2(ends%chord)
@@ -49,7 +51,9 @@ contains
     end do
     associate (p => ends%displacement(:, 1), q => ends%displacement(:, 2))
       station%displacement = p + h(3)*(q - p) + length*(h(2)*slope(:, 1) + h(4)*slope(:, 2))
-      tangent = d(3)*(ends%chord + q - p)/length + d(2)*triad(:, 1, 1) + d(4)*triad(:, 1, 2)
+      turn = matmul(triad(:, 2:3, 2) - triad(:, 2:3, 1), ends%shear_centre)
+      tangent = d(3)*(ends%chord + q - p + turn)/length + d(2)*triad(:, 1, 1) &
+                + d(4)*triad(:, 1, 2)
     end associate
     tangent = tangent/norm2(tangent)
     station%euler = turned(ends%euler(:, 1), &
@@ -85,17 +89,20 @@ contains
     real(wp), intent(in) :: triad(3, 3, 2)   !< of the ends now
     real(wp), intent(in) :: xi, axis(3)
     type(station_t), intent(inout) :: station
-    real(wp) :: twist, length, more
+    real(wp) :: twist, length, shear, rate(2), more
 
     length = norm2(ends%chord)
     associate (yp => triad(:, 2, 1), zp => triad(:, 3, 1), yq => triad(:, 2, 2), &
-               zq => triad(:, 3, 2), a => ends%warping)
+               zq => triad(:, 3, 2))
       twist = atan2(dot_product(zp, yq) - dot_product(yp, zq), &
                     dot_product(yp, yq) + dot_product(zp, zq))
-      more = twist*(3*xi**2 - 2*xi**3 - xi) + length*(a(1)*xi*(1 - xi)**2 + a(2)*xi**2*(xi - 1))
-      station%warping = 6*twist/length*xi*(1 - xi) + a(1)*(1 - xi)*(1 - 3*xi) &
-                        + a(2)*xi*(3*xi - 2)
     end associate
+    shear = ends%shear*(twist/length - 0.5_wp*sum(ends%warping))
+    rate = ends%warping + shear
+    more = twist*(3*xi**2 - 2*xi**3 - xi) &
+           + length*(rate(1)*xi*(1 - xi)**2 + rate(2)*xi**2*(xi - 1))
+    station%warping = 6*twist/length*xi*(1 - xi) + rate(1)*(1 - xi)*(1 - 3*xi) &
+                      + rate(2)*xi*(3*xi - 2) - shear
     station%euler = turned(station%euler, more*axis)
   end subroutine add_twist
 

@@ -3,8 +3,10 @@
 module beam_mesh
   use kinds, only: wp
   use section_data, only: section_constants_t, section_geometry_t, section_open, section_closed
-  use model_data, only: model_t, member_t
+  use beamw_rigidity, only: rigidity_t, shear_compliance
   use beam_curve, only: beam_ends_t
+  use model_data, only: model_t, member_t, mode_flexible
+  use system_constants, only: member_rigidity
   implicit none
   private
 
@@ -76,20 +78,21 @@ contains
     type(model_t), intent(in) :: model
     type(member_t), intent(in) :: member
     type(beam_t), intent(out) :: beam
+    type(rigidity_t) :: rigidity
 
     beam%node = member%node
     beam%profile = member%section
     beam%ends%chord = member%chord
     beam%ends%triad = member%triad
-    if (member%rigid .or. any(member%node(3, :) == 0)) return
-    if (member%has_stiffness) then
-      beam%ends%warps = member%stiffness(7) > 0
-    else if (member%section > 0) then
-      associate (c => model%section(member%section)%constants)
-        beam%ends%warps = c%iw > 0
-        beam%ends%shear_centre = [c%ys, c%zs]
-      end associate
-    end if
+    if (member%rigid .or. all(member%status /= mode_flexible)) return
+    if (.not. member%has_stiffness .and. min(member%section, member%material) == 0) return
+    rigidity = member_rigidity(model, member)
+    beam%ends%shear_centre = [rigidity%ys, rigidity%zs]
+    beam%ends%warps = rigidity%eiw > 0 .and. all(member%node(3, :) > 0)
+    associate (phi => matmul(shear_compliance(rigidity), [0.0_wp, 0.0_wp, 12*rigidity%eiw]) &
+               /dot_product(member%chord, member%chord))
+      beam%ends%shear = phi(3)/(1 + phi(3))
+    end associate
   end subroutine new_beam
 
   pure subroutine new_line(profile)
@@ -188,8 +191,8 @@ contains
     integer :: i
 
     do i = 1, mesh%segments
-      call add_cell(mesh, mesh%beam(e)%first + [i - 1, i], line_cell, e, (i - 0.5_wp)/mesh%segments, &
-                    cells)
+      call add_cell(mesh, mesh%beam(e)%first + [i - 1, i], line_cell, e, &
+                    (i - 0.5_wp)/mesh%segments, cells)
     end do
   end subroutine add_lines
 
@@ -226,7 +229,8 @@ contains
     real(wp) :: xi
 
     xi = end - 1
-    associate (profile => mesh%profile(mesh%beam(e)%profile), last => mesh%profile(mesh%beam(e)%profile)%last)
+    associate (profile => mesh%profile(mesh%beam(e)%profile), &
+               last => mesh%profile(mesh%beam(e)%profile)%last)
       at = mesh%beam(e)%first - 1
       if (end == 2) at = at + mesh%segments*last(size(last))
       if (profile%kind == section_closed) then

@@ -98,7 +98,7 @@ contains
     end if
     word = "0"
     if (.not. abs(number) > scale*10.0_wp**(-digits - margin)) return
-    shown = min(digits, digits + margin - floor(log10(scale)) + floor(log10(abs(number))))
+    shown = min(digits, 1 + digits + margin - floor(log10(scale)) + floor(log10(abs(number))))
     if (shown < 1) return
     write (form, "('(es40.', i0, 'e3)')") shown - 1
     write (buffer, form) number

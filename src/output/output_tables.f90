@@ -3,9 +3,10 @@ module output_tables
   use, intrinsic :: iso_fortran_env, only: i1 => int8
   use, intrinsic :: iso_c_binding, only: c_ptr, c_loc
   use hdf5, only: hid_t, hsize_t, size_t, h5pcreate_f, h5pclose_f, h5pset_obj_track_times_f, &
-                  h5pset_chunk_f, h5pset_chunk_cache_f, h5screate_simple_f, h5sclose_f, h5sselect_hyperslab_f, &
+                  h5pset_chunk_f, h5pset_chunk_cache_f, h5screate_simple_f, h5sclose_f, &
                   h5dcreate_f, h5dset_extent_f, h5dget_space_f, h5dwrite_f, h5dclose_f, &
-                  h5p_dataset_create_f, h5p_dataset_access_f, h5s_select_set_f, h5s_unlimited_f, h5t_native_double, &
+                  h5sselect_hyperslab_f, h5p_dataset_create_f, h5p_dataset_access_f, &
+                  h5s_select_set_f, h5s_unlimited_f, h5t_native_double, &
                   h5t_native_integer, h5t_ieee_f64le, h5t_ieee_f32le, h5t_std_i32le, &
                   h5t_std_i64le, h5t_std_u8le, h5t_native_real, h5kind_to_type, h5_integer_kind
   use kinds, only: wp, sp, i8

@@ -34,7 +34,7 @@ module output_vtkhdf
                         field_offsets = 5, cell_field_offsets = 6, longs = 6
 
   !> Points gathered before they are written: files of small models would rather wait for the disk.
-  integer, parameter :: gathered_points = 2048
+  integer, parameter :: gathered_points = 8192
 
   type :: vtk_writer_t
     private

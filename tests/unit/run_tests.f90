@@ -15,6 +15,7 @@ program run_tests
   use test_beamw_inertia, only: run_beamw_inertia_tests
   use test_column_vibration, only: run_column_vibration_tests
   use test_static, only: run_static_tests
+  use test_dead_loads, only: run_dead_loads_tests
   use test_limits, only: run_limits_tests
   use test_path, only: run_path_tests
   use test_stability, only: run_stability_tests
@@ -23,6 +24,9 @@ program run_tests
   use test_eigen, only: run_eigen_tests
   use test_output_hdf5, only: run_output_hdf5_tests
   use test_output_results, only: run_output_results_tests
+  use test_output_compare, only: run_output_compare_tests
+  use test_output_digest, only: run_output_digest_tests
+  use test_output_vtkhdf, only: run_output_vtkhdf_tests
   use test_program, only: run_program_tests
   use test_deck_sections, only: run_deck_sections_tests
   use test_section_command, only: run_section_command_tests
@@ -44,6 +48,7 @@ program run_tests
   call run_beamw_inertia_tests()
   call run_column_vibration_tests()
   call run_static_tests()
+  call run_dead_loads_tests()
   call run_limits_tests()
   call run_path_tests()
   call run_stability_tests()
@@ -52,6 +57,9 @@ program run_tests
   call run_eigen_tests()
   call run_output_hdf5_tests()
   call run_output_results_tests()
+  call run_output_compare_tests()
+  call run_output_digest_tests()
+  call run_output_vtkhdf_tests()
   call run_program_tests()
   call run_deck_sections_tests()
   call run_section_command_tests()
