@@ -15,8 +15,9 @@ module beam_mesh
   !> Cell types of VTK.
   integer, parameter, public :: line_cell = 3, polygon_cell = 7, quad_cell = 9
 
-  !> Pieces of a beam at most, and in all, where that allows more than one each.
-  integer, parameter :: most_segments = 4, all_segments = 1000
+  !> Pieces of a beam at most, without and with outlines, and in all, where that allows more than
+  !> one each.
+  integer, parameter :: line_segments = 4, outline_segments = 3, all_segments = 1000
 
   !> What is swept along a beam: closed polygons, or the centroid alone.
   type :: profile_t
@@ -55,12 +56,16 @@ contains
     type(mesh_t), intent(out) :: mesh
     integer :: e, points
 
-    mesh%segments = min(most_segments, max(1, all_segments/max(1, size(model%member))))
     allocate (mesh%profile(size(model%section) + 1))
     do e = 1, size(model%section)
       call new_profile(model%section(e)%constants, model%section(e)%geometry, mesh%profile(e))
     end do
     call new_line(mesh%profile(size(mesh%profile)))
+    mesh%segments = line_segments
+    do e = 1, size(model%section)
+      if (size(mesh%profile(e)%last) > 0) mesh%segments = outline_segments
+    end do
+    mesh%segments = min(mesh%segments, max(1, all_segments/max(1, size(model%member))))
     allocate (mesh%beam(size(model%member)))
     points = 0
     do e = 1, size(model%member)

@@ -116,8 +116,8 @@ contains
     character(len=*), intent(in) :: word
     character(len=:), allocatable :: short
 
-    short = word(min(verify(word, "+-0"), len(word)):)
-    if (verify(word, "+-0") == 0) short = "0"
+    short = "0"
+    if (verify(word, "+-0") > 0) short = word(verify(word, "+-0"):)
     if (word(1:1) == "-" .and. short /= "0") short = "-"//short
   end function short_exponent
 

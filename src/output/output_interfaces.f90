@@ -4,7 +4,8 @@ module output_interfaces
   implicit none
   private
 
-  public :: c_rename, c_remove, c_fopen, c_fclose, c_fileno, c_flock, c_isatty, c_setenv
+  public :: c_rename, c_remove, c_fopen, c_fclose, c_fileno, c_flock, c_isatty, c_setenv, &
+            c_unsetenv
 
   interface
     integer(c_int) function c_rename(from, to) bind(c, name="rename")
@@ -55,6 +56,12 @@ module output_interfaces
       character(kind=c_char), intent(in) :: name(*), value(*)
       integer(c_int), value :: overwrite
     end function c_setenv
+
+    integer(c_int) function c_unsetenv(name) bind(c, name="unsetenv")
+      import :: c_int, c_char
+      implicit none
+      character(kind=c_char), intent(in) :: name(*)
+    end function c_unsetenv
   end interface
 
 end module output_interfaces

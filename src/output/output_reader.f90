@@ -12,7 +12,7 @@ module output_reader
   use errors, only: error_t, fail, exit_io
   use text, only: string_t
   use output_files, only: file_exists, folder_exists
-  use output_interfaces, only: c_setenv
+  use output_interfaces, only: c_setenv, c_unsetenv
   implicit none
   private
 
@@ -66,7 +66,8 @@ contains
     class(reader_t), intent(inout) :: self
     character(len=*), intent(in) :: path
     type(error_t), allocatable, intent(out) :: error
-    integer :: status
+    character(len=*), parameter :: locking = "HDF5_USE_FILE_LOCKING"
+    integer :: status, unset
     integer(c_int) :: ignored
 
     self%path = path
@@ -78,10 +79,12 @@ contains
       call fail(error, exit_io, "cannot read '"//path//"': it is a folder")
       return
     end if
-    ignored = c_setenv("HDF5_USE_FILE_LOCKING"//c_null_char, "FALSE"//c_null_char, 1_c_int)
+    call get_environment_variable(locking, status=unset)
+    if (unset /= 0) ignored = c_setenv(locking//c_null_char, "FALSE"//c_null_char, 1_c_int)
     call h5open_f(status)
     call h5eset_auto_f(0, status)
     call h5fopen_f(path, h5f_acc_rdonly_f, self%file, status)
+    if (unset /= 0) ignored = c_unsetenv(locking//c_null_char)
     if (status >= 0) return
     self%file = -1
     call fail(error, exit_io, "cannot read '"//path//"': it is no HDF5 file, or damaged")

@@ -103,14 +103,13 @@ contains
   end subroutine start_longs
 
   !> A list of whole numbers from 0 to 255.
-  subroutine start_bytes(self, file, path, rows, about)
+  subroutine start_bytes(self, file, path, rows)
     class(table_t), intent(out) :: self
     type(hdf5_file_t), intent(inout) :: file
     character(len=*), intent(in) :: path
     integer(i8), intent(in) :: rows
-    type(about_t), intent(in) :: about
 
-    call start(self, file, path, h5t_std_u8le, rows, about)
+    call start(self, file, path, h5t_std_u8le, rows)
   end subroutine start_bytes
 
   subroutine start(self, file, path, type, rows, about)

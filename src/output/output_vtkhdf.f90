@@ -172,12 +172,11 @@ contains
     type(hdf5_file_t), intent(inout) :: file
 
     associate (mesh => self%mesh)
-      call write_long(file, "NumberOfPoints", [size(mesh%position, 2)], "number of points")
-      call write_long(file, "NumberOfCells", [size(mesh%kind)], "number of cells")
-      call write_long(file, "NumberOfConnectivityIds", [size(mesh%corners)], &
-                      "entries of Connectivity")
-      call write_long(file, "Connectivity", mesh%corners, "points of the cells, from 0")
-      call write_long(file, "Offsets", mesh%offset, "by cell: start in Connectivity")
+      call write_long(file, "NumberOfPoints", [size(mesh%position, 2)])
+      call write_long(file, "NumberOfCells", [size(mesh%kind)])
+      call write_long(file, "NumberOfConnectivityIds", [size(mesh%corners)])
+      call write_long(file, "Connectivity", mesh%corners)
+      call write_long(file, "Offsets", mesh%offset)
       call write_types(file, mesh%kind)
       call self%point_table%start_reals(file, root//"/Points", size(mesh%position, 2, i8), &
         about_t("L", "point; X Y Z", "positions of the undeformed model"), 3)
@@ -185,14 +184,13 @@ contains
     end associate
   end subroutine write_mesh
 
-  subroutine write_long(file, name, values, description)
+  subroutine write_long(file, name, values)
     type(hdf5_file_t), intent(inout) :: file
-    character(len=*), intent(in) :: name, description
+    character(len=*), intent(in) :: name
     integer, intent(in) :: values(:)
     type(table_t) :: table
 
-    call table%start_longs(file, root//"/"//name, size(values, kind=i8), &
-                           about_t("1", "entry", description))
+    call table%start_longs(file, root//"/"//name, size(values, kind=i8))
     call table%append(file, int(values, i8))
     call table%finish(file)
   end subroutine write_long
@@ -202,8 +200,7 @@ contains
     integer, intent(in) :: kind(:)
     type(table_t) :: table
 
-    call table%start_bytes(file, root//"/Types", size(kind, kind=i8), &
-      about_t("1", "cell", "3: a line, 7: a polygon, 9: a quadrangle"))
+    call table%start_bytes(file, root//"/Types", size(kind, kind=i8))
     call table%append(file, int(kind, i1))
     call table%finish(file)
   end subroutine write_types

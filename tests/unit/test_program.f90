@@ -412,8 +412,7 @@ contains
     integer, allocatable :: values(:), extents(:)
 
     path = fresh("both.h5")
-    call run_shell('unset HDF5_USE_FILE_LOCKING;'// & ! which the reader in this process sets
-                   ' timeout --preserve-status -s INT 2 "$SPAR_PROGRAM" run '//deck// &
+    call run_shell('timeout --preserve-status -s INT 2 "$SPAR_PROGRAM" run '//deck// &
                    " --quiet -Dsteps=1000000 -o "//path//" & sleep 0.8;"// &
                    ' "$SPAR_PROGRAM" run '//deck//" -o "//path//"; status=$?; wait;"// &
                    " exit $status", outcome)
