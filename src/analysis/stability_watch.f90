@@ -77,12 +77,13 @@ contains
 
     if (watch%stability == stability_off) return
     call count_unstable(system, solver, iterate, unstable, error)
+    if (allocated(error)) return
     if (watch%at_branch) then
       watch%at_branch = .false.
       watch%branch = .false.
       watch%unstable = unstable
     end if
-    if (allocated(error) .or. unstable == watch%unstable) return
+    if (unstable == watch%unstable) return
     call keep_safe(iterate, level, reached)
     call locate_critical(system, solver, options, control, before, watch%unstable, level, iterate, &
                          recorder, point, error)
@@ -156,7 +157,7 @@ contains
     call keep_safe(iterate, level, far)
     do i = 1, most_bisections
       middle = 0.5_wp*(low + high)
-      call probe(system, solver, options, control, before, far, middle, level, iterate, recorder, &
+      call probe(system, solver, options, control, before, middle, level, iterate, recorder, &
                  found, error)
       if (allocated(error)) return
       if (.not. found) exit
@@ -177,15 +178,14 @@ contains
     call describe(system, solver, control%pattern, level, iterate, point, error)
   end subroutine locate_critical
 
-  !> Equilibrium at a fraction of the increment from `before`; its whole is known from `control`
-  !> or, for loads and displacements, from the far end.
-  subroutine probe(system, solver, options, control, before, far, fraction, level, iterate, &
+  !> Equilibrium at a fraction of the increment from `before`; `control` knows the whole.
+  subroutine probe(system, solver, options, control, before, fraction, level, iterate, &
                    recorder, found, error)
     type(system_t), intent(in) :: system
     type(solver_t), intent(inout) :: solver
     type(newton_t), intent(in) :: options
     type(control_t), intent(in) :: control
-    type(safe_t), intent(in) :: before, far
+    type(safe_t), intent(in) :: before
     real(wp), intent(in) :: fraction
     real(wp), intent(inout) :: level(:)
     type(iterate_t), intent(inout) :: iterate
@@ -212,7 +212,7 @@ contains
     if (allocated(part%total)) part%total = 0
     call find_equilibrium(system, solver, options, part, level, iteration_t(), iterate, recorder, &
                           outcome, error)
-    found = outcome%status == newton_converged .and. size(far%level) > 0
+    found = outcome%status == newton_converged
   end subroutine probe
 
   !> Kind and mode of the critical point at the present state: the mode by inverse iteration, in

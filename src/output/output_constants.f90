@@ -6,6 +6,7 @@ module output_constants
   use section_shapes, only: shape_dimensions_t, not_given
   use model_data, only: model_t, section_t
   use output_sketch, only: sketch_t, draw_section
+  use output_json, only: json_string
   implicit none
   private
 
@@ -233,9 +234,9 @@ contains
     integer :: i
 
     associate (g => section%geometry, c => section%constants)
-      call say(unit, " {""name"": "//json_text(trim(section%name))//", ""shape"": "// &
-               json_text(trim(section%shape))//",")
-      call say(unit, "  ""defaults"": "//json_text(section%defaults)//", ""angle"": "// &
+      call say(unit, " {""name"": "//json_string(trim(section%name))//", ""shape"": "// &
+               json_string(trim(section%shape))//",")
+      call say(unit, "  ""defaults"": "//json_string(section%defaults)//", ""angle"": "// &
                to_text(g%theta, 17)//", ""centroid"": "//json_list(g%centroid)//",")
       value = values(c)
       line = ""
@@ -295,27 +296,5 @@ contains
 
     phrase = "["//to_text(pair(1), 17)//", "//to_text(pair(2), 17)//"]"
   end function json_list
-
-  !> A text between quotes, with what JSON cannot hold written otherwise.
-  pure function json_text(text) result(phrase)
-    character(len=*), intent(in) :: text
-    character(len=:), allocatable :: phrase
-    character(len=4) :: code
-    integer :: i
-
-    phrase = """"
-    do i = 1, len(text)
-      select case (text(i:i))
-      case ("""", "\")
-        phrase = phrase//"\"//text(i:i)
-      case (achar(0):achar(31))
-        write (code, "(z4.4)") iachar(text(i:i))
-        phrase = phrase//"\u"//code
-      case default
-        phrase = phrase//text(i:i)
-      end select
-    end do
-    phrase = phrase//""""
-  end function json_text
 
 end module output_constants
