@@ -24,6 +24,8 @@ module recorder
   type, public :: step_t
     integer :: step = 0               !< 0: the state the analysis starts from
     real(wp) :: factor = 0.0_wp       !< load factor
+    real(wp) :: time = 0.0_wp         !< of a motion in time [T]
+    real(wp) :: size = 0.0_wp         !< of a motion in time: its last time step [T]
     integer :: iterations = 0         !< spent on it, cut-backs included
     integer :: cutbacks = 0
     integer :: unstable = -1          !< unstable modes; -1: not asked for

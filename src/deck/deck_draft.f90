@@ -144,7 +144,8 @@ contains
     allocate (draft%model%marker(8), draft%model%point(8), draft%model%analysis(4))
     allocate (draft%selection(64), draft%item(64), draft%record(64))
     allocate (draft%group(8), draft%marker_of(8), draft%analysis_steps(4))
-    allocate (draft%model%imperfection(0))
+    allocate (draft%model%imperfection(0), draft%model%joint(0), draft%model%mass(0))
+    allocate (draft%model%start(0))
     draft%marker_of = 0
     draft%node_broken = .false.
   end subroutine new_draft

@@ -13,13 +13,18 @@ module element_base
     integer :: strains = 0                   !< number of generalized strains
     integer :: coordinates = 0               !< number of coordinates they depend on
     integer, allocatable :: coordinate(:)    !< their numbers, see `nodal_state`
-    logical, allocatable :: fixed(:)         !< by strain: held at zero, its stress is a multiplier
+    !> by strain: held, at zero or where a motion puts it; its stress is a multiplier
+    logical, allocatable :: fixed(:)
+    logical :: counts_turns = .false.        !< `count_turns` has something to do
+    logical :: damped = .false.              !< `damping` is not zero
     real(wp) :: size = 0.0_wp                !< its length, for estimates of round-off [L]
     integer :: section_node(2) = 0           !< rotational nodes of its end sections; 0: it has none
     real(wp) :: triad(3, 3) = 0.0_wp         !< initial axes eX eY eZ of the sections
   contains
     procedure(evaluate_interface), deferred :: evaluate
     procedure(law_interface), deferred :: law
+    procedure :: damping
+    procedure :: count_turns
   end type element_t
 
   !> An array of these is a list of elements of any type.
@@ -50,5 +55,25 @@ module element_base
       real(wp), intent(out) :: stiffness(self%strains, self%strains)
     end subroutine law_interface
   end interface
+
+contains
+
+  !> Stress resultants per rate of strain; rows of fixed strains are zero. None unless an element
+  !> says otherwise.
+  pure subroutine damping(self, viscosity)
+    class(element_t), intent(in) :: self
+    real(wp), intent(out) :: viscosity(self%strains, self%strains)
+
+    viscosity = 0
+  end subroutine damping
+
+  !> Note the angles as they are now, see `state%angle`; called after every increment, which turns
+  !> a hinge by less than pi.
+  pure subroutine count_turns(self, state)
+    class(element_t), intent(in) :: self
+    type(state_t), intent(inout) :: state
+
+    if (self%strains < 0) state%angle = 0
+  end subroutine count_turns
 
 end module element_base

@@ -16,6 +16,8 @@ module nodal_state
     real(wp), allocatable :: euler(:, :)         !< 0:3 x nodes, Euler parameters, scalar first
     real(wp), allocatable :: warping(:)          !< alpha, the rate of twist [1/L]
     real(wp), allocatable :: release(:)          !< values of the released strains [L]
+    !> Angles of hinges as last counted, so that they go on through full turns [rad].
+    real(wp), allocatable :: angle(:)
   contains
     procedure :: move
   end type state_t
@@ -23,16 +25,17 @@ module nodal_state
 contains
 
   !> The undeformed state.
-  pure subroutine new_state(nodes, releases, state)
-    integer, intent(in) :: nodes, releases
+  pure subroutine new_state(nodes, releases, angles, state)
+    integer, intent(in) :: nodes, releases, angles
     type(state_t), intent(out) :: state
 
     allocate (state%displacement(3, nodes), state%euler(0:3, nodes))
-    allocate (state%warping(nodes), state%release(releases))
+    allocate (state%warping(nodes), state%release(releases), state%angle(angles))
     state%displacement = 0
     state%euler = spread(no_rotation, 2, nodes)
     state%warping = 0
     state%release = 0
+    state%angle = 0
   end subroutine new_state
 
   !> Number of a node's coordinate; `component` counts X Y Z RX RY RZ W.

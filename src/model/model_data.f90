@@ -13,15 +13,26 @@ module model_data
 
   public :: model_t, node_t, material_t, section_t, member_t, load_t, pattern_t, marker_t
   public :: function_t, analysis_t, setting_t, target_t, imperfection_t
+  public :: joint_t, mass_t, motion_t, start_t
 
   !> Kinds of nodes; an id names up to one of each.
   integer, parameter, public :: translational = 1, rotational = 2, warping = 3
 
   !> Status of a generalized strain.
-  integer, parameter, public :: mode_fixed = 0, mode_flexible = 1, mode_released = 2
+  integer, parameter, public :: mode_fixed = 0, mode_flexible = 1, mode_released = 2, &
+                                mode_prescribed = 3
 
-  !> Types of elements.
-  integer, parameter, public :: type_beamw = 1
+  !> Types of beams; a BEAM has six modes and no warping.
+  integer, parameter, public :: type_beamw = 1, type_beam = 2
+
+  !> Types of joints: all elements that are not beams.
+  integer, parameter, public :: joint_truss = 1, joint_hinge = 2, joint_universal = 3, &
+                                joint_spherical = 4, joint_cylindrical = 5, joint_prismatic = 6, &
+                                joint_gear = 7
+  character(len=11), parameter, public :: joint_names(7) = &
+    ["TRUSS      ", "HINGE      ", "UNIVERSAL  ", "SPHERICAL  ", "CYLINDRICAL", "PRISMATIC  ", &
+     "GEAR       "]
+  integer, parameter, public :: joint_modes(7) = [1, 3, 3, 3, 6, 6, 1]  !< number of strains
 
   !> Options of a beam.
   integer, parameter, public :: second_none = 0, second_jonker = 1, second_consistent = 2
@@ -32,7 +43,9 @@ module model_data
                                 function_table = 4, function_formula = 5
 
   !> Kinds of analyses.
-  integer, parameter, public :: analysis_static = 1, analysis_buckling = 2, analysis_eigen = 3
+  integer, parameter, public :: analysis_static = 1, analysis_buckling = 2, analysis_eigen = 3, &
+                                analysis_transient = 4, analysis_kinematic = 5, &
+                                analysis_inverse = 6, analysis_compliance = 7
 
   !> What a STATIC analysis controls, and what it does about stability.
   integer, parameter, public :: control_load = 0, control_displacement = 1, control_arc = 2
@@ -99,8 +112,42 @@ module model_data
     logical :: has_inertia = .false.    !< EM given
     !> EM: rho A [M L^-1], rho Ip, Iy, Iz, Iyz [M L], rho Iw [M L^3]
     real(wp) :: inertia(6) = 0.0_wp
+    logical :: has_damping = .false.    !< EDAMP given
+    !> EDAMP, per rate of strain: EA [F T], GIt EIy EIz [F L^2 T], EIw [F L^4 T]
+    real(wp) :: damping(5) = 0.0_wp
+    real(wp) :: initial_stress(8) = 0.0_wp  !< ESIG: stress resultants at zero strain [F]
     type(place_t) :: place
   end type member_t
+
+  !> An element that is not a beam. Its strains are lengths [L] or angles [1]; what `node` holds
+  !> depends on the kind: translational ends of TRUSS and SPHERICAL in row 1, rotational ends of
+  !> HINGE and UNIVERSAL in row 2, both of CYLINDRICAL and PRISMATIC, none of GEAR.
+  type :: joint_t
+    integer :: id = 0
+    integer :: kind = joint_truss           !< one of `joint_*`
+    integer :: node(2, 2) = 0               !< node index by kind and end (1 = p, 2 = q); 0: none
+    real(wp) :: chord(3) = 0.0_wp           !< initial vector from p to q [L]
+    real(wp) :: axis(3, 2) = 0.0_wp         !< initially, global: a, and of UNIVERSAL b at q
+    integer :: gear(2) = 0                  !< GEAR: the hinges, indices of joints
+    real(wp) :: ratio = 1.0_wp              !< GEAR: strain = angle of the second - ratio * first
+    integer :: section = 0, material = 0    !< TRUSS: indices; 0: none
+    integer :: mass = mass_consistent       !< TRUSS: one of `mass_*`
+    integer :: status(6) = mode_fixed       !< of each mode, one of `mode_*`
+    logical :: has_stiffness = .false., has_damping = .false., has_inertia = .false.
+    real(wp) :: stiffness(6) = 0.0_wp       !< ESTIFF, by mode; of a TRUSS EA [F]
+    real(wp) :: damping(6) = 0.0_wp         !< EDAMP, by mode; of a TRUSS [F T]
+    real(wp) :: inertia = 0.0_wp            !< EM of a TRUSS: rho A [M L^-1]
+    real(wp) :: initial_stress(6) = 0.0_wp  !< ESIG, by mode
+    type(place_t) :: place
+  end type joint_t
+
+  !> Mass and rotary inertia of a node (XM).
+  type :: mass_t
+    integer :: node = 0
+    real(wp) :: mass = 0.0_wp               !< [M]
+    real(wp) :: inertia(3, 3) = 0.0_wp      !< about the node, global axes at the start [M L^2]
+    type(place_t) :: place
+  end type mass_t
 
   !> A point fixed to a section: marker or place of a load.
   type :: marker_t
@@ -121,11 +168,39 @@ module model_data
     real(wp) :: bimoment = 0.0_wp     !< conjugate to the warping coordinate [F L^2]
     integer :: marker = 0             !< index in `model%point`; 0: at the node itself
     integer :: function = 0           !< index; 0: the load factor itself
+    logical :: follower = .false.     !< turns with the node it acts on
     type(place_t) :: place
   end type load_t
 
-  !> The loads given between two analyses; ramped together.
+  !> A prescribed strain (INPUTE) or coordinate (INPUTX): from where it stands it goes by `value`
+  !> times the load factor or function, and in time by velocity t + acceleration t**2/2 besides.
+  type :: motion_t
+    integer :: member = 0, joint = 0  !< of a strain: index of the element; else 0
+    integer :: mode = 0
+    integer :: node = 0               !< of a coordinate
+    integer :: component = 0          !< 1 to 7: X Y Z RX RY RZ W
+    logical :: euler = .false.        !< components 4 to 6 are Euler parameters 1 to 3, not angles
+    real(wp) :: value = 0.0_wp        !< what it adds to the motions of earlier patterns
+    real(wp) :: velocity = 0.0_wp, acceleration = 0.0_wp
+    integer :: function = 0           !< index; 0: the load factor itself
+    type(place_t) :: place
+  end type motion_t
+
+  !> What a motion in time starts from.
+  type :: start_t
+    integer :: member = 0, joint = 0  !< STARTDE: index of the element; else 0
+    integer :: mode = 0
+    integer :: node = 0               !< STARTX, STARTDX
+    integer :: component = 0          !< 1 to 7: X Y Z RX RY RZ W
+    logical :: rate = .false.         !< a velocity or rate of strain, not a position
+    real(wp) :: value = 0.0_wp        !< STARTX: the coordinate itself, X not displacement
+    type(place_t) :: place
+  end type start_t
+
+  !> The loads and motions given between two analyses; ramped together.
   type :: pattern_t
+    type(motion_t), allocatable :: motion(:)
+    integer :: motions = 0                !< how many of `motion` are in use
     type(load_t), allocatable :: load(:)
     integer :: loads = 0                  !< how many of `load` are in use
     real(wp) :: gravity(3) = 0.0_wp       !< acceleration [L T^-2]
@@ -167,6 +242,14 @@ module model_data
     integer :: stability = stability_off      !< one of `stability_*`
     logical :: branch = .false.               !< BRANCH ON: switch to the secondary branch
     integer :: modes = 10                     !< MODES of BUCKLING (of each sign) and EIGEN
+    logical :: damped = .false.               !< DAMPED of EIGEN
+    logical :: matrices = .false.             !< MATRICES ON of EIGEN
+    real(wp) :: end_time = 0.0_wp             !< TEND, absolute [T]
+    real(wp) :: time_step = 0.0_wp            !< STEP [T]; 0: adaptive, with `tolerance` TOL
+    real(wp) :: spectral_radius = 0.9_wp      !< RHOINF, 0 to 1
+    real(wp) :: every = 0.0_wp                !< EVERY: interval of the output [T]; 0: each step
+    logical :: stabilised = .false.           !< velocity constraints exact too
+    integer, allocatable :: node(:)           !< COMPLIANCE: nodes
     type(place_t) :: place
   end type analysis_t
 
@@ -192,6 +275,12 @@ module model_data
     type(material_t), allocatable :: material(:)
     type(section_t), allocatable :: section(:)
     type(member_t), allocatable :: member(:)
+    type(joint_t), allocatable :: joint(:)
+    type(mass_t), allocatable :: mass(:)
+    type(start_t), allocatable :: start(:)
+    real(wp) :: rayleigh(2) = 0.0_wp           !< DAMP: of mass [1/T], of stiffness [T]
+    integer, allocatable :: kept_node(:)       !< OUTPUT NODES: what histories keep; none: all
+    integer, allocatable :: kept_member(:)     !< OUTPUT ELEMENTS, beams; none: all
     type(marker_t), allocatable :: marker(:)   !< those with a name, of MARKER cards
     type(marker_t), allocatable :: point(:)    !< places of loads given with AT
     type(function_t), allocatable :: function(:)

@@ -37,7 +37,8 @@ contains
     type(iterate_t), intent(out) :: iterate
     integer :: strains
 
-    call new_state(system%nodes, system%coordinates - node_coordinates*system%nodes, iterate%state)
+    call new_state(system%nodes, system%coordinates - node_coordinates*system%nodes, &
+                   system%angles, iterate%state)
     strains = size(system%multiplier)
     allocate (iterate%stress(strains), iterate%strain(strains), iterate%elastic(strains))
     allocate (iterate%jacobian(system%jacobian(size(system%jacobian))))

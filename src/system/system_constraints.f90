@@ -68,7 +68,8 @@ contains
     type(state_t) :: state
     integer :: e, n
 
-    call new_state(system%nodes, system%coordinates - node_coordinates*system%nodes, state)
+    call new_state(system%nodes, system%coordinates - node_coordinates*system%nodes, &
+                   system%angles, state)
     n = 0
     do e = 1, size(system%element)
       n = n + count(system%element(e)%e%fixed)*system%element(e)%e%coordinates

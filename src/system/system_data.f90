@@ -60,6 +60,8 @@ module system_data
     integer :: unknowns = 0               !< free coordinates
     integer :: multipliers = 0            !< fixed strains that count
     integer :: members = 0                !< the first elements are the model's members, in order
+    integer :: joints = 0                 !< then come its joints, then what holds or drives nodes
+    integer :: angles = 0                 !< angles that are counted through full turns
     type(element_slot_t), allocatable :: element(:)
     integer, allocatable :: unknown(:)    !< by coordinate: number of its unknown; 0: held
     logical, allocatable :: used(:)       !< by coordinate: an element depends on it

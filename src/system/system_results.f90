@@ -14,6 +14,9 @@ module system_results
   public :: results_t, get_results, shear_centre_shift
 
   integer, parameter, public :: result_modes = 8  !< strains kept of a member
+  integer, parameter, public :: joint_strains = 6 !< strains kept of a joint
+  character(len=10), parameter, public :: energy_names(6) = &
+    ["kinetic   ", "strain    ", "loads     ", "motion    ", "dissipated", "imbalance "]
 
   !> Results at one state; arrays by node and by member in the order of the model.
   type :: results_t
@@ -28,6 +31,16 @@ module system_results
     real(wp), allocatable :: force_q(:, :)        !< the same at end q, on the positive face
     real(wp), allocatable :: point_stress(:, :)   !< (4, places) total, axial, bending, warping
     real(wp), allocatable :: marker(:, :)         !< (3, markers) displacement [L]
+    real(wp), allocatable :: joint_strain(:, :)   !< (6, joints) [L] or [1], 0 behind the last mode
+    real(wp), allocatable :: joint_stress(:, :)   !< (6, joints) [F] or [F L]
+    !> Only of a motion in time, else not allocated:
+    real(wp), allocatable :: velocity(:, :)       !< (7, nodes) of X Y Z, angular, of alpha
+    real(wp), allocatable :: acceleration(:, :)   !< (7, nodes) their derivatives to time
+    real(wp), allocatable :: joint_rate(:, :)     !< (6, joints) derivative of the strains to time
+    !> Kinetic and strain energy; work since the start of loads, of prescribed motion, lost in
+    !> dampers; what is missing in their balance [F L].
+    real(wp), allocatable :: energy(:)
+    real(wp), allocatable :: momentum(:)          !< linear and, about the origin, angular (6)
   end type results_t
 
 contains
@@ -46,6 +59,7 @@ contains
     results%warping = iterate%state%warping
     call get_forces(system, iterate, results)
     call get_members(model, system, iterate, results)
+    call get_joints(system, iterate, results)
     results%point_stress = point_stress(model, results%force_p, results%force_q)
     allocate (results%marker(3, size(model%marker)))
     do i = 1, size(model%marker)
@@ -66,7 +80,7 @@ contains
     do k = 1, n
       if (system%unknown(k) > 0) reaction(k) = 0
     end do
-    do e = system%members + 1, size(system%element)
+    do e = system%members + system%joints + 1, size(system%element)
       associate (at => system%element(e)%e%coordinate)
         reaction(at) = reaction(at) - nodal_force(system, iterate, e, system%element(e)%e)
       end associate
@@ -104,6 +118,27 @@ contains
       results%force_q(:, e) = in_section(iterate, system%element(e)%e, 2, force(8:14))
     end do
   end subroutine get_members
+
+  !> Strains of the joints and their stress resultants.
+  pure subroutine get_joints(system, iterate, results)
+    type(system_t), intent(in) :: system
+    type(iterate_t), intent(in) :: iterate
+    type(results_t), intent(inout) :: results
+    integer :: i, j, k
+
+    allocate (results%joint_strain(joint_strains, system%joints))
+    allocate (results%joint_stress(joint_strains, system%joints))
+    results%joint_strain = 0
+    results%joint_stress = 0
+    do j = 1, system%joints
+      k = system%first(system%members + j)
+      do i = 1, system%element(system%members + j)%e%strains
+        results%joint_strain(i, j) = iterate%strain(k + i)
+        results%joint_stress(i, j) = iterate%elastic(k + i)
+        if (system%multiplier(k + i) > 0) results%joint_stress(i, j) = iterate%stress(k + i)
+      end do
+    end do
+  end subroutine get_joints
 
   !> Column 2 of E, rows 3 to 6.
   pure function shear_centre_shift(model, e) result(shift)

@@ -32,7 +32,7 @@ program bench_tangent
   call new_element_beamw(reshape([1, 1, 1, 2, 2, 2], [3, 2]), 2, [90, 0, 0]*1.0_wp, &
                          reshape([1, 0, 0, 0, 1, 0, 0, 0, 1]*1.0_wp, [3, 3]), &
                          [(.false., i=1, 8)], [(0, i=1, 8)], constants, element)
-  call new_state(2, 0, state)
+  call new_state(2, 0, 0, state)
   state%euler(:, 2) = turned(state%euler(:, 2), [0.1_wp, 0.05_wp, -0.02_wp])
   state%displacement(:, 2) = [-0.5_wp, 1.0_wp, 2.0_wp]
   stress = [(1.0_wp*i, i=1, 9)]

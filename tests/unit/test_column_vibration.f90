@@ -164,7 +164,7 @@ contains
     shared => constants
     call new_element_beamw(reshape([1, 1, 1, 2, 2, 2], [3, 2]), 2, [l, 0.0_wp, 0.0_wp], &
                            identity3, spread(.false., 1, 8), spread(0, 1, 8), shared, element)
-    call new_state(2, 0, state)
+    call new_state(2, 0, 0, state)
     call element%law(s)
     call element%evaluate(state, spread(0.0_wp, 1, 9), strain, b, geometric, valid)
     k = matmul(transpose(b), matmul(s, b))

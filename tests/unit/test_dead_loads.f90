@@ -32,7 +32,7 @@ contains
     load%lean = [8, 9]
     load%lean_rate = [1.3_wp, -0.8_wp]
     load%axes = reshape([0.2_wp, 0.7_wp, 0.1_wp, -0.3_wp, 0.2_wp, 0.8_wp], [3, 2])
-    call new_state(1, 2, state)
+    call new_state(1, 2, 0, state)
     call state%move([0.0_wp, 0.0_wp, 0.0_wp, 0.4_wp, -0.7_wp, 0.3_wp, 0.25_wp, 0.6_wp, -0.5_wp])
     call dead_load(load, 1.0_wp, state, force, tangent)
     do i = 4, 9

@@ -108,7 +108,7 @@ contains
     c%constants = new_beamw(c%rigidity, c%length, second)
     call new_element_beamw(reshape([1, 1, 1, 2, 2, 2], [3, 2]), 2, c%chord, c%triad, &
                            spread(.false., 1, 8), spread(0, 1, 8), c%constants, c%element)
-    call new_state(2, 0, c%state)
+    call new_state(2, 0, 0, c%state)
     c%state%displacement(:, 1) = numbers(member(c%text, "r_p")) &
                                  - numbers(member(c%text, "rp_initial"))
     c%state%displacement(:, 2) = numbers(member(c%text, "r_q")) &
