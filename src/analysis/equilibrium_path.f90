@@ -103,10 +103,10 @@ contains
 
     do k = 1, size(system%dropped)
       if (.not. system%dropped(k)) cycle
-      if (abs(iterate%strain(k)) <= 1.0e-8_wp*system%length) cycle
+      if (abs(iterate%strain(k) - iterate%target(k)) <= 1.0e-8_wp*system%length) cycle
       call fail(error, exit_solve, "the constraints contradict each other: "// &
                 strain_name(model, system, k)//", redundant at the start, is off by "// &
-                to_text(iterate%strain(k), 3))
+                to_text(iterate%strain(k) - iterate%target(k), 3))
       return
     end do
   end subroutine check_dropped

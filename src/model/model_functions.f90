@@ -6,7 +6,7 @@ module model_functions
   implicit none
   private
 
-  public :: function_value
+  public :: function_value, function_jet
 
   real(wp), parameter :: pi = acos(-1.0_wp)
 
@@ -33,6 +33,18 @@ contains
       end select
     end associate
   end function function_value
+
+  !> Value, first and second derivative.
+  pure subroutine function_jet(f, s, jet)
+    type(function_t), intent(in) :: f
+    real(wp), intent(in) :: s
+    real(wp), intent(out) :: jet(0:2)
+    real(wp), parameter :: h = 1.0e-4_wp
+
+    jet(0) = function_value(f, s)
+    jet(1) = (function_value(f, s + h) - function_value(f, s - h))/(2*h)
+    jet(2) = (function_value(f, s + h) - 2*jet(0) + function_value(f, s - h))/h**2
+  end subroutine function_jet
 
   !> Linear between the rows' pairs, constant outside; at a jump the value behind it.
   pure function table_value(table, s) result(value)

@@ -8,17 +8,19 @@ module system_assembly
   use element_base, only: element_t
   use system_data, only: system_t
   use system_pattern, only: add_block
-  use system_loads, only: add_loads
+  use system_loads, only: add_loads, load_direction
+  use system_motion, only: set_targets, target_direction
   implicit none
   private
 
-  public :: iterate_t, new_iterate, assemble, right_hand_side, advance
+  public :: iterate_t, new_iterate, assemble, right_hand_side, pattern_direction, advance
 
   !> Where the iteration stands; what `assemble` leaves is about `state` as it was then.
   type :: iterate_t
     type(state_t) :: state
     real(wp), allocatable :: stress(:)      !< iterated stress resultants and multipliers, by strain
     real(wp), allocatable :: strain(:)      !< by strain, of the last assembly [L]
+    real(wp), allocatable :: target(:)      !< by strain: where a held one is to be
     real(wp), allocatable :: elastic(:)     !< law times strain, zero for fixed strains
     real(wp), allocatable :: jacobian(:)    !< of all elements, one behind the other
     real(wp), allocatable :: internal(:)    !< by coordinate: forces of the strains' stresses
@@ -41,6 +43,7 @@ contains
                    system%angles, iterate%state)
     strains = size(system%multiplier)
     allocate (iterate%stress(strains), iterate%strain(strains), iterate%elastic(strains))
+    allocate (iterate%target(strains))
     allocate (iterate%jacobian(system%jacobian(size(system%jacobian))))
     allocate (iterate%internal(system%coordinates))
     allocate (iterate%constraint(system%coordinates), iterate%external(system%coordinates))
@@ -48,6 +51,7 @@ contains
     iterate%stress = 0
     iterate%strain = 0
     iterate%elastic = 0
+    iterate%target = 0
   end subroutine new_iterate
 
   !> Evaluate all elements and loads at the present state with the patterns at `level`.
@@ -69,6 +73,7 @@ contains
       end associate
       if (iterate%invalid > 0) return
     end do
+    call set_targets(system, level, iterate%target)
     call add_loads(system, iterate%state, level, iterate%external, iterate%values)
   end subroutine assemble
 
@@ -171,8 +176,8 @@ contains
     call add_block(system%pattern, e, bordered, values)
   end subroutine add_element
 
-  !> Right-hand side of the mixed Newton step: loads minus forces of the strains; minus the fixed
-  !> strains. Its solution is the increment and the new multipliers.
+  !> Right-hand side of the mixed Newton step: loads minus forces of the strains; what the held
+  !> strains lack. Its solution is the increment and the new multipliers.
   pure function right_hand_side(system, iterate) result(b)
     type(system_t), intent(in) :: system
     type(iterate_t), intent(in) :: iterate
@@ -183,9 +188,28 @@ contains
       if (system%unknown(k) > 0) b(system%unknown(k)) = iterate%external(k) - iterate%internal(k)
     end do
     do k = 1, size(system%multiplier)
-      if (system%multiplier(k) > 0) b(system%multiplier(k)) = -iterate%strain(k)
+      if (system%multiplier(k) > 0) b(system%multiplier(k)) = iterate%target(k) - iterate%strain(k)
     end do
   end function right_hand_side
+
+  !> Derivative of the right-hand side to the level of a pattern: loads and motions.
+  pure function pattern_direction(system, state, level, pattern) result(b)
+    type(system_t), intent(in) :: system
+    type(state_t), intent(in) :: state
+    real(wp), intent(in) :: level(:)
+    integer, intent(in) :: pattern
+    real(wp) :: b(system%equations()), force(system%coordinates), rise(size(system%multiplier))
+    integer :: k
+
+    call load_direction(system, state, level, pattern, force)
+    call target_direction(system, level, pattern, rise)
+    do k = 1, system%coordinates
+      if (system%unknown(k) > 0) b(system%unknown(k)) = force(k)
+    end do
+    do k = 1, size(system%multiplier)
+      if (system%multiplier(k) > 0) b(system%multiplier(k)) = rise(k)
+    end do
+  end function pattern_direction
 
   !> Take a step: move the state by `share` of the solution, extrapolate the stresses.
   pure subroutine advance(system, solution, share, iterate, increment)
@@ -206,6 +230,9 @@ contains
       end associate
     end do
     call iterate%state%move(increment)
+    do e = 1, size(system%element)
+      if (system%element(e)%e%counts_turns) call system%element(e)%e%count_turns(iterate%state)
+    end do
   end subroutine advance
 
   !> sigma <- S (strain + D du), with strain and D before the step; multipliers from the solution.

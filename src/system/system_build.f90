@@ -1,15 +1,12 @@
 !> From the model to the system: elements, unknowns, loads, sparsity.
 module system_build
   use kinds, only: wp
-  use model_data, only: model_t, member_t, load_t, mode_fixed, mode_flexible, mode_released, &
-                        mass_none, mass_consistent, components
+  use model_data, only: model_t, member_t, load_t, mode_released, mass_none, mass_consistent, &
+                        components
   use nodal_state, only: coordinate_number, node_coordinates
-  use element_base, only: element_slot_t
-  use element_beamw, only: new_element_beamw, modes
-  use element_rotation, only: new_element_rotation
-  use beamw_constants, only: beamw_t
-  use system_constants, only: constants_table_t
   use system_data, only: system_t, dead_load_t
+  use system_elements, only: make_elements
+  use system_motion, only: make_motions
   use system_pattern, only: find_pattern
   implicit none
   private
@@ -27,16 +24,19 @@ contains
     system%nodes = size(model%node)
     system%members = size(model%member)
     system%length = model_size(model)
-    allocate (twists(system%nodes))
+    system%joints = size(model%joint)
+    allocate (twists(system%nodes), system%timed(size(model%pattern)))
+    system%timed = .false.
     call make_elements(model, system, twists)
     call number_strains(system)
-    call number_coordinates(model, twists, system)
-    call number_multipliers(system)
     if (allocated(model%function)) then
       system%function = model%function
     else
       allocate (system%function(0))
     end if
+    call make_motions(model, system)
+    call number_coordinates(model, twists, system)
+    call number_multipliers(system)
     call make_loads(model, system)
   end subroutine build_system
 
@@ -53,88 +53,8 @@ contains
     do i = 1, size(model%member)
       length = max(length, maxval(abs(model%member(i)%chord)))
     end do
+    if (.not. length > 0) length = 1  ! rotational nodes only
   end function model_size
-
-  !> Elements of all members, then those that hold single components of a rotation. `twists(i)`:
-  !> the warping coordinate of node i has a bimoment.
-  subroutine make_elements(model, system, twists)
-    type(model_t), intent(in) :: model
-    type(system_t), intent(inout) :: system
-    logical, intent(out) :: twists(:)
-    type(constants_table_t) :: table
-    type(beamw_t), pointer :: constants
-    logical :: held(3)
-    integer :: i, n, release(modes), releases
-
-    allocate (system%element(system%members + count_held_rotations(model)))
-    twists = .false.
-    releases = 0
-    do i = 1, system%members
-      associate (m => model%member(i))
-        call table%get(model, m, constants)
-        call number_releases(m, releases, release)
-        if (constants%warping .and. m%status(2) /= mode_fixed) twists(m%node(3, :)) = .true.
-        call new_element_beamw(m%node, system%nodes, m%chord, m%triad, &
-                               m%status == mode_fixed .or. m%rigid, release, constants, &
-                               system%element(i)%e)
-      end associate
-    end do
-    do i = 1, system%members
-      associate (m => model%member(i))
-        if (any(m%status(7:8) == mode_fixed) .or. m%rigid) call hold_warping(m, twists)
-      end associate
-    end do
-    n = system%members
-    do i = 1, system%nodes
-      held = model%node(i)%fixed(4:6)
-      if (all(held) .or. .not. any(held)) cycle
-      n = n + 1
-      call new_element_rotation(i, held, system%element(n)%e)
-    end do
-    if (allocated(table%constants)) call move_alloc(table%constants, system%constants)
-    system%constants_used = table%entries
-    system%coordinates = node_coordinates*system%nodes + releases
-  end subroutine make_elements
-
-  !> Modes 7 and 8 of a rigid torsion hold alpha.
-  pure subroutine hold_warping(member, twists)
-    type(member_t), intent(in) :: member
-    logical, intent(inout) :: twists(:)
-    integer :: e
-
-    do e = 1, 2
-      if (member%status(6 + e) == mode_fixed .or. member%rigid) twists(member%node(3, e)) = .false.
-    end do
-  end subroutine hold_warping
-
-  !> A released mode of a beam with stiffness has a coordinate of its own; one of a beam without
-  !> is just not constrained.
-  pure subroutine number_releases(member, releases, release)
-    type(member_t), intent(in) :: member
-    integer, intent(inout) :: releases
-    integer, intent(out) :: release(modes)
-    integer :: i
-
-    release = 0
-    if (member%rigid .or. .not. any(member%status == mode_flexible)) return
-    do i = 1, modes
-      if (member%status(i) /= mode_released) cycle
-      releases = releases + 1
-      release(i) = releases
-    end do
-  end subroutine number_releases
-
-  pure integer function count_held_rotations(model) result(n)
-    type(model_t), intent(in) :: model
-    integer :: i
-
-    n = 0
-    do i = 1, size(model%node)
-      associate (held => model%node(i)%fixed(4:6))
-        if (any(held) .and. .not. all(held)) n = n + 1
-      end associate
-    end do
-  end function count_held_rotations
 
   pure subroutine number_strains(system)
     type(system_t), intent(inout) :: system
@@ -173,15 +93,17 @@ contains
     end do
     do k = 1, system%coordinates
       if (.not. system%used(k)) cycle
-      if (is_held(model, k)) cycle
+      if (is_held(model, system, k)) cycle
       system%unknowns = system%unknowns + 1
       system%unknown(k) = system%unknowns
     end do
   end subroutine number_coordinates
 
-  !> Fixed directly; a rotation only if all its components are.
-  pure logical function is_held(model, coordinate)
+  !> Fixed directly; of a rotation two components at least, and no motion: the third is then a turn
+  !> about an axis that does not move, and the two hold without a constraint.
+  pure logical function is_held(model, system, coordinate)
     type(model_t), intent(in) :: model
+    type(system_t), intent(in) :: system
     integer, intent(in) :: coordinate
     integer :: node, component
 
@@ -189,10 +111,9 @@ contains
     if (coordinate > node_coordinates*size(model%node)) return
     node = (coordinate - 1)/node_coordinates + 1
     component = coordinate - node_coordinates*(node - 1)
+    is_held = model%node(node)%fixed(component)
     if (component >= 4 .and. component <= 6) then
-      is_held = all(model%node(node)%fixed(4:6))
-    else
-      is_held = model%node(node)%fixed(component)
+      is_held = is_held .and. all(system%holder(4:6, node) == 0)
     end if
   end function is_held
 

@@ -11,7 +11,7 @@ module system_data
   implicit none
   private
 
-  public :: system_t, dead_load_t, constants_slot_t, pattern_t, unknown_name_t
+  public :: system_t, dead_load_t, constants_slot_t, pattern_t, unknown_name_t, drive_t, turn_t
 
   !> A pointer that can live in an array.
   type :: constants_slot_t
@@ -34,6 +34,19 @@ module system_data
     real(wp) :: lean_rate(2) = 0.0_wp   !< angle per released strain [1/L]
     real(wp) :: axes(3, 2) = 0.0_wp     !< initially, as long as the arm and across it [L]
   end type dead_load_t
+
+  !> A motion of a held strain: value times load factor or function, and what time adds.
+  type :: drive_t
+    integer :: strain = 0
+    integer :: pattern = 0
+    integer :: function = 0             !< index in `system%function`; 0: the load factor
+    real(wp) :: value = 0.0_wp, velocity = 0.0_wp, acceleration = 0.0_wp
+  end type drive_t
+
+  !> Strains that are Euler parameters but driven by an angle or rotation vector.
+  type :: turn_t
+    integer :: first = 0, strains = 0
+  end type turn_t
 
   !> Sparsity in coordinate form and, for each block (element or load), where its entries go.
   type :: pattern_t
@@ -71,6 +84,11 @@ module system_data
     logical, allocatable :: dropped(:)    !< by strain: fixed, but follows from other constraints
     type(dead_load_t), allocatable :: load(:)
     type(function_t), allocatable :: function(:)
+    type(drive_t), allocatable :: drive(:)
+    type(turn_t), allocatable :: turn(:)
+    integer, allocatable :: holder(:, :)  !< (7, nodes) element whose strain is that coordinate; or 0
+    !> By pattern: its level is the time; cards without a function act in full.
+    logical, allocatable :: timed(:)
     type(constants_slot_t), allocatable :: constants(:)
     integer :: constants_used = 0
     type(pattern_t) :: pattern

@@ -23,6 +23,7 @@ contains
     do i = 1, size(system%load)
       associate (load => system%load(i))
         factor(i) = level(load%pattern)
+        if (system%timed(load%pattern)) factor(i) = 1
         if (load%function > 0) then
           factor(i) = function_value(system%function(load%function), level(load%pattern))
         end if
