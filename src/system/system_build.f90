@@ -251,6 +251,7 @@ contains
     load%force = card%force
     load%moment = card%moment
     load%bimoment = card%bimoment
+    load%follower = card%follower
     if (card%marker == 0) return
     associate (point => model%point(card%marker))
       if (point%member == 0) return
@@ -263,8 +264,9 @@ contains
   end function point_load
 
   !> Sparsity with a block for each element, coordinates then multipliers, and for each load, the
-  !> rotation and alpha of its node and the releases it leans by. Dead moments make the tangent
-  !> unsymmetric (theory 6).
+  !> rotation and alpha of its node and the releases it leans by, or the translation of a follower.
+  !> Followers, and dead moments where more than one axis is free, make the tangent unsymmetric
+  !> (theory 6).
   pure subroutine find_system_pattern(system)
     type(system_t), intent(inout) :: system
     integer, allocatable :: start(:), member(:)
@@ -273,7 +275,7 @@ contains
 
     blocks = size(system%element) + size(system%load)
     allocate (start(blocks + 1), member(sum([(width(system, e), e=1, size(system%element))]) &
-                                        + 6*size(system%load)))
+                                        + 7*size(system%load)))
     n = 0
     do e = 1, size(system%element)
       start(e) = n + 1
@@ -293,8 +295,13 @@ contains
       associate (load => system%load(i))
         member(n + 1:n + 4) = &
           system%unknown(coordinate_number(load%node([2, 2, 2, 3]), [4, 5, 6, 7]))
-        if (any(abs(load%moment) > 0) .and. any(member(n + 1:n + 3) > 0)) symmetric = .false.
+        if (any(abs(load%moment) > 0) .and. count(member(n + 1:n + 3) > 0) > 1) symmetric = .false.
         n = n + 4
+        if (load%follower) then
+          symmetric = .false.
+          member(n + 1:n + 3) = system%unknown(coordinate_number(load%node(1), [1, 2, 3]))
+          n = n + 3
+        end if
         if (all(load%lean == 0)) cycle
         member(n + 1:n + 2) = 0
         where (load%lean > 0) member(n + 1:n + 2) = system%unknown(max(1, load%lean))

@@ -29,6 +29,7 @@ module system_data
     real(wp) :: bimoment = 0.0_wp       !< [F L^2]
     real(wp) :: arm(3) = 0.0_wp         !< initially, global axes [L]
     real(wp) :: warp(3) = 0.0_wp        !< -omega eX of the section [L^2]
+    logical :: follower = .false.       !< force and moment turn with the rotational node
     !> Coordinates of released bending strains by which the arm turns towards `axes`; 0: none.
     integer :: lean(2) = 0
     real(wp) :: lean_rate(2) = 0.0_wp   !< angle per released strain [1/L]
