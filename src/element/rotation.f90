@@ -6,7 +6,7 @@ module rotation
   implicit none
   private
 
-  public :: rotation_matrix, rotated, turned, rotation_vector, cross, skew
+  public :: rotation_matrix, rotated, turned, rotation_vector, cross, outer, skew
 
   real(wp), parameter, public :: identity3(3, 3) = &
     reshape([1, 0, 0, 0, 1, 0, 0, 0, 1]*1.0_wp, [3, 3])
@@ -83,6 +83,16 @@ contains
 
     c = [a(2)*b(3) - a(3)*b(2), a(3)*b(1) - a(1)*b(3), a(1)*b(2) - a(2)*b(1)]
   end function cross
+
+  !> a b', the matrix of a dyadic product.
+  pure function outer(a, b) result(m)
+    real(wp), intent(in) :: a(3), b(3)
+    real(wp) :: m(3, 3)
+
+    m(:, 1) = a*b(1)
+    m(:, 2) = a*b(2)
+    m(:, 3) = a*b(3)
+  end function outer
 
   !> The matrix of a cross product: `matmul(skew(a), b)` is a x b, (3).
   pure function skew(a) result(s)
