@@ -3,7 +3,7 @@ module analysis_run
   use kinds, only: wp
   use errors, only: error_t, fail, exit_deck
   use model_data, only: model_t, analysis_t, control_arc, analysis_static, analysis_buckling, &
-                        analysis_eigen
+                        analysis_eigen, analysis_transient
   use linalg_solver, only: solver_t
   use system_data, only: system_t
   use system_build, only: build_system, find_system_pattern
@@ -16,11 +16,20 @@ module analysis_run
   use geometric_imperfection, only: add_imperfections
   use analysis_buckling, only: run_buckling
   use analysis_eigen, only: run_eigen
+  use analysis_transient, only: run_transient
+  use generalized_alpha, only: flow_t
   use recorder, only: recorder_t
   implicit none
   private
 
   public :: run_analyses
+
+  !> What an analysis leaves to the next besides the state.
+  type :: course_t
+    type(modes_t) :: modes               !< of the last BUCKLING
+    real(wp) :: time = 0.0_wp
+    type(flow_t), allocatable :: flow    !< rates of a motion, which the next one takes up
+  end type course_t
 
 contains
 
@@ -55,7 +64,8 @@ contains
     call new_iterate(system, iterate)
     call solver%prepare(system%equations(), system%pattern%row, system%pattern%column, &
                         system%pattern%symmetric, error)
-    if (allocated(error) .or. all(model%analysis%kind == analysis_eigen)) return
+    if (allocated(error) .or. .not. any(model%analysis%kind == analysis_static .or. &
+                                        model%analysis%kind == analysis_buckling)) return
     call refuse_free_motion(model, system, solver, iterate, error)
     if (any(model%analysis%kind /= analysis_static)) return
     deallocate (system%pattern%row, system%pattern%column)  ! the solver has its own
@@ -70,7 +80,7 @@ contains
     type(error_t), allocatable, intent(out) :: error
     type(error_t), allocatable :: second
     type(model_t) :: shaped
-    type(modes_t) :: modes
+    type(course_t) :: course
     real(wp) :: level(size(model%pattern))
     integer :: i
 
@@ -78,7 +88,7 @@ contains
     if (size(model%imperfection) > 0) shaped = model
     do i = 1, size(model%analysis)
       if (any(model%imperfection%analysis == i)) then
-        call add_imperfections(i, modes, shaped, error)
+        call add_imperfections(i, course%modes, shaped, error)
         if (allocated(error)) return
         call solver%free()
         call system%free()
@@ -89,10 +99,10 @@ contains
       call recorder%begin(i, model%analysis(i), error)
       if (allocated(error)) return
       if (size(model%imperfection) > 0) then
-        call run_one(shaped, system, solver, model%analysis(i), level, iterate, recorder, modes, &
+        call run_one(shaped, system, solver, model%analysis(i), level, iterate, recorder, course, &
                      error)
       else
-        call run_one(model, system, solver, model%analysis(i), level, iterate, recorder, modes, &
+        call run_one(model, system, solver, model%analysis(i), level, iterate, recorder, course, &
                      error)
       end if
       call recorder%finish(.not. allocated(error), second)
@@ -101,24 +111,30 @@ contains
     end do
   end subroutine run_in_order
 
-  !> Run one analysis; BUCKLING leaves its modes.
-  subroutine run_one(model, system, solver, analysis, level, iterate, recorder, modes, error)
+  !> Run one analysis.
+  subroutine run_one(model, system, solver, analysis, level, iterate, recorder, course, error)
     type(model_t), intent(in) :: model
-    type(system_t), intent(in) :: system
+    type(system_t), intent(inout) :: system
     type(solver_t), intent(inout) :: solver
     type(analysis_t), intent(in) :: analysis
     real(wp), intent(inout) :: level(:)
     type(iterate_t), intent(inout) :: iterate
     class(recorder_t), intent(inout) :: recorder
-    type(modes_t), intent(inout) :: modes
+    type(course_t), intent(inout) :: course
     type(error_t), allocatable, intent(out) :: error
 
     select case (analysis%kind)
     case (analysis_buckling)
-      call run_buckling(model, system, solver, analysis, level, iterate, recorder, modes, error)
+      call run_buckling(model, system, solver, analysis, level, iterate, recorder, course%modes, &
+                        error)
     case (analysis_eigen)
       call run_eigen(model, system, solver, analysis, level, iterate, recorder, error)
+    case (analysis_transient)
+      if (analysis%pattern > 0) system%timed(analysis%pattern) = .true.
+      call run_transient(model, system, analysis, course%time, level, iterate, course%flow, &
+                         recorder, error)
     case default
+      if (allocated(course%flow)) deallocate (course%flow)
       if (analysis%control == control_arc) then
         call run_arc(model, system, solver, analysis, level, iterate, recorder, error)
       else

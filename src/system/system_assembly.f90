@@ -28,6 +28,11 @@ module system_assembly
     real(wp), allocatable :: external(:)    !< by coordinate: loads
     real(wp), allocatable :: noise(:)       !< by coordinate: round-off to expect in the forces
     real(wp), allocatable :: values(:)      !< entries of the matrix
+    !> Only of a motion in time, else not allocated: velocities by coordinate, given; rates of the
+    !> strains and their viscous stress resultants, found.
+    real(wp), allocatable :: velocity(:), rate(:), viscous(:)
+    real(wp) :: velocity_share = 0.0_wp     !< change of the velocities with the coordinates [1/T]
+    real(wp), allocatable :: inertial(:)    !< by coordinate: inertia forces, of a motion in time
     integer :: invalid = 0                  !< an element rotated beyond its range; 0: none
   end type iterate_t
 
@@ -99,7 +104,10 @@ contains
       return
     end if
     call element%law(law)
-    elastic = matmul(law, strain)
+    elastic = matmul(law, strain) + system%initial_stress(first:last)
+    if (allocated(iterate%velocity)) then
+      call add_damping(element, first, jacobian, iterate, law)
+    end if
     stress_rate = matmul(law, jacobian)
     do j = 1, element%coordinates
       do i = 1, j
@@ -109,6 +117,9 @@ contains
     end do
     iterate%strain(first:last) = strain
     iterate%elastic(first:last) = elastic
+    if (element%damped .and. allocated(iterate%velocity)) then
+      elastic = elastic + iterate%viscous(first:last)
+    end if
     call coordinate_sizes(element, iterate%state, size_of)
     associate (at => element%coordinate)
       do j = 1, element%coordinates
@@ -123,6 +134,27 @@ contains
     end associate
     call add_element(system, e, element, tangent, jacobian, iterate%values)
   end subroutine assemble_element
+
+  !> Rates of the strains and viscous stresses; the law gains what the velocities add to it.
+  pure subroutine add_damping(element, first, jacobian, iterate, law)
+    class(element_t), intent(in) :: element
+    integer, intent(in) :: first
+    real(wp), intent(in) :: jacobian(element%strains, element%coordinates)
+    type(iterate_t), intent(inout) :: iterate
+    real(wp), intent(inout) :: law(element%strains, element%strains)
+    real(wp) :: viscosity(element%strains, element%strains), rate(element%strains)
+    integer :: i
+
+    rate = 0
+    do i = 1, element%coordinates
+      rate = rate + jacobian(:, i)*iterate%velocity(element%coordinate(i))
+    end do
+    iterate%rate(first:first + element%strains - 1) = rate
+    if (.not. element%damped) return
+    call element%damping(viscosity)
+    iterate%viscous(first:first + element%strains - 1) = matmul(viscosity, rate)
+    law = law + iterate%velocity_share*viscosity
+  end subroutine add_damping
 
   !> What round-off in a coordinate is relative to: displacements and the element's size, one
   !> radian, alpha.
@@ -187,6 +219,12 @@ contains
     do k = 1, system%coordinates
       if (system%unknown(k) > 0) b(system%unknown(k)) = iterate%external(k) - iterate%internal(k)
     end do
+    if (allocated(iterate%inertial)) then
+      do k = 1, system%coordinates
+        if (system%unknown(k) == 0) cycle
+        b(system%unknown(k)) = b(system%unknown(k)) - iterate%inertial(k)
+      end do
+    end if
     do k = 1, size(system%multiplier)
       if (system%multiplier(k) > 0) b(system%multiplier(k)) = iterate%target(k) - iterate%strain(k)
     end do
@@ -254,7 +292,7 @@ contains
     do i = 1, element%coordinates
       strain = strain + jacobian(:, i)*increment(element%coordinate(i))
     end do
-    stress = matmul(law, strain)
+    stress = matmul(law, strain) + system%initial_stress(first:last)
     do i = 1, element%strains
       associate (old => iterate%stress(first + i - 1), at => system%multiplier(first + i - 1))
         if (at > 0) stress(i) = old + share*(solution(at) - old)

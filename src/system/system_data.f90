@@ -83,7 +83,9 @@ module system_data
     integer, allocatable :: jacobian(:)   !< by element: entries of Jacobians before its own
     integer, allocatable :: multiplier(:) !< by strain: number of its unknown; 0: none
     logical, allocatable :: dropped(:)    !< by strain: fixed, but follows from other constraints
+    real(wp), allocatable :: initial_stress(:)  !< by strain: at zero strain, of a law
     type(dead_load_t), allocatable :: load(:)
+    integer, allocatable :: mass_node(:)  !< nodes with mass or inertia of their own
     type(function_t), allocatable :: function(:)
     type(drive_t), allocatable :: drive(:)
     type(turn_t), allocatable :: turn(:)

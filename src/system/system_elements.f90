@@ -1,14 +1,16 @@
 !> The elements of a system: of the members, of the joints, and those that hold or drive nodes.
 module system_elements
+  use kinds, only: wp
   use model_data, only: model_t, member_t, mode_fixed, mode_flexible, mode_released, &
                         mode_prescribed, type_beam, components
   use nodal_state, only: node_coordinates
-  use element_beamw, only: new_element_beamw, modes
+  use element_beamw, only: new_element_beamw, add_damping, modes
   use element_coordinate, only: new_element_coordinate
   use element_rotation, only: new_element_rotation
   use beamw_constants, only: beamw_t
-  use system_constants, only: constants_table_t
+  use system_constants, only: constants_table_t, member_damping
   use system_data, only: system_t
+  use system_joints, only: make_joints
   implicit none
   private
 
@@ -43,6 +45,7 @@ contains
     end do
     allocate (system%element(n))
     call make_beams(model, system, twists)
+    call make_joints(model, system)
     do i = 1, system%nodes
       if (.not. any(held(:, i))) cycle
       n = maxval(merge(system%holder(:, i), 0, linear))
@@ -85,6 +88,7 @@ contains
     logical, intent(inout) :: twists(:)
     type(constants_table_t) :: table
     type(beamw_t), pointer :: constants
+    real(wp), allocatable :: viscosity(:, :)
     integer :: i, release(modes), releases
 
     twists = .false.
@@ -96,6 +100,8 @@ contains
         if (constants%warping .and. m%status(2) /= mode_fixed) twists(m%node(3, :)) = .true.
         call new_element_beamw(m%node, system%nodes, m%chord, m%triad, held_modes(m), release, &
                                constants, system%element(i)%e)
+        call member_damping(model, m, constants, viscosity)
+        if (allocated(viscosity)) call add_damping(viscosity, system%element(i)%e)
       end associate
     end do
     do i = 1, system%members

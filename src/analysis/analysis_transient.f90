@@ -1,0 +1,259 @@
+!> TRANSIENT: motion in time from the present state, with generalized-alpha steps that are fixed or
+!> chosen by an estimate of their error.
+module analysis_transient
+  use kinds, only: wp
+  use errors, only: error_t, fail, exit_solve, exit_interrupt
+  use text, only: to_text
+  use model_data, only: model_t, analysis_t
+  use system_data, only: system_t
+  use system_assembly, only: iterate_t
+  use system_inertia, only: masses_t, new_masses
+  use system_results, only: results_t
+  use equilibrium_path, only: reason, check_dropped
+  use newton_method, only: newton_outcome_t, newton_converged
+  use generalized_alpha, only: new_scheme, flow_t
+  use dynamic_equilibrium, only: dynamics_t, new_dynamics, take_step, release_dynamics
+  use dynamic_start, only: start_motion
+  use energy_account, only: account_t, open_account, enter_step, motion_results
+  use recorder, only: recorder_t, step_t, iteration_t
+  implicit none
+  private
+
+  public :: run_transient
+
+  integer, parameter :: most_halvings = 10
+
+  !> A step may grow and shrink by these factors, and aims at this part of the tolerance.
+  real(wp), parameter :: most_growth = 2.0_wp, most_shrinking = 0.2_wp, safety = 0.8_wp
+
+  !> Where a step starts from, to come back to.
+  type :: instant_t
+    real(wp) :: time = 0.0_wp
+    type(iterate_t) :: iterate
+    type(flow_t) :: flow
+    real(wp), allocatable :: level(:)
+  end type instant_t
+
+contains
+
+  !> Integrate from `time` to the analysis' end. `flow` holds the rates of an earlier motion that
+  !> goes on, and is left at those of the end; not allocated: the motion starts here.
+  subroutine run_transient(model, system, analysis, time, level, iterate, flow, recorder, error)
+    type(model_t), intent(in) :: model
+    type(system_t), intent(in) :: system
+    type(analysis_t), intent(in) :: analysis
+    real(wp), intent(inout) :: time, level(:)
+    type(iterate_t), intent(inout) :: iterate
+    type(flow_t), allocatable, intent(inout) :: flow
+    class(recorder_t), intent(inout) :: recorder
+    type(error_t), allocatable, intent(out) :: error
+    type(masses_t) :: masses
+    type(dynamics_t) :: motion
+    type(account_t) :: account
+
+    call new_masses(model, system, masses)
+    call new_dynamics(system, masses, iterate, new_scheme(analysis%spectral_radius), &
+                      model%rayleigh(1), motion, error)
+    if (.not. allocated(error)) then
+      where (motion%system%timed) level = time
+      if (allocated(flow)) motion%flow = flow
+      call start_motion(model, first_step(analysis, time), .not. allocated(flow), level, motion, &
+                        error)
+    end if
+    if (.not. allocated(error)) then
+      call open_account(motion, account)
+      call march(model, analysis, time, level, motion, account, recorder, error)
+      iterate%state = motion%iterate%state
+      iterate%stress = motion%iterate%stress
+      flow = motion%flow
+    end if
+    call release_dynamics(motion)
+  end subroutine run_transient
+
+  !> Length of the first step: as given, or a guess that the error will correct.
+  pure real(wp) function first_step(analysis, time) result(h)
+    type(analysis_t), intent(in) :: analysis
+    real(wp), intent(in) :: time
+
+    h = analysis%time_step
+    if (.not. h > 0) h = 1.0e-4_wp*(analysis%end_time - time)
+  end function first_step
+
+  !> Step until the end, recording.
+  subroutine march(model, analysis, time, level, motion, account, recorder, error)
+    type(model_t), intent(in) :: model
+    type(analysis_t), intent(in) :: analysis
+    real(wp), intent(inout) :: time, level(:)
+    type(dynamics_t), intent(inout) :: motion
+    type(account_t), intent(inout) :: account
+    class(recorder_t), intent(inout) :: recorder
+    type(error_t), allocatable, intent(out) :: error
+    type(step_t) :: record
+    real(wp) :: start, span, goal, h
+    integer :: stop, stops
+
+    start = time
+    span = analysis%end_time - time
+    stops = number_of_stops(analysis, span)
+    h = first_step(analysis, time)
+    record%time = time
+    call keep(model, motion, account, recorder, record, error)
+    do stop = 1, stops
+      if (allocated(error)) return
+      goal = start + span*stop/stops
+      if (stop < stops .and. analysis%every > 0 .and. .not. analysis%time_step > 0) then
+        goal = start + stop*analysis%every
+      end if
+      if (analysis%time_step > 0) h = goal - time
+      call reach(model, analysis, goal, h, time, level, motion, account, recorder, record, error)
+      if (allocated(error)) return
+      call check_dropped(model, motion%system, motion%iterate, error)
+      if (allocated(error)) return
+      if (.not. is_output(analysis, start, stop, stops, span)) cycle
+      record%step = record%step + 1
+      record%time = time
+      call keep(model, motion, account, recorder, record, error)
+    end do
+  end subroutine march
+
+  !> Equal steps, or intervals of the output.
+  pure integer function number_of_stops(analysis, span) result(stops)
+    type(analysis_t), intent(in) :: analysis
+    real(wp), intent(in) :: span
+    real(wp) :: interval
+
+    interval = span
+    if (analysis%time_step > 0) then
+      interval = analysis%time_step
+    else if (analysis%every > 0) then
+      interval = analysis%every
+    end if
+    stops = max(1, ceiling(span/interval - 1.0e-6_wp))
+  end function number_of_stops
+
+  !> With a fixed step, the steps nearest to multiples of EVERY are kept, and the last.
+  pure logical function is_output(analysis, start, stop, stops, span)
+    type(analysis_t), intent(in) :: analysis
+    real(wp), intent(in) :: start, span
+    integer, intent(in) :: stop, stops
+    real(wp) :: h
+
+    is_output = .true.
+    if (.not. analysis%time_step > 0 .or. .not. analysis%every > 0 .or. stop == stops) return
+    h = span/stops
+    is_output = floor((stop + 0.5_wp)*h/analysis%every) > floor((stop - 0.5_wp)*h/analysis%every)
+    if (start < 0) is_output = .true.
+  end function is_output
+
+  !> To a time, in one step or several: halved where Newton fails, and in adaptive steps chosen by
+  !> their error; `h` is the length to try next.
+  subroutine reach(model, analysis, goal, h, time, level, motion, account, recorder, record, error)
+    type(model_t), intent(in) :: model
+    type(analysis_t), intent(in) :: analysis
+    real(wp), intent(in) :: goal
+    real(wp), intent(inout) :: h, time, level(:)
+    type(dynamics_t), intent(inout) :: motion
+    type(account_t), intent(inout) :: account
+    class(recorder_t), intent(inout) :: recorder
+    type(step_t), intent(inout) :: record
+    type(error_t), allocatable, intent(out) :: error
+    type(newton_outcome_t) :: outcome
+    type(instant_t) :: before
+    real(wp), dimension(motion%system%coordinates) :: increment, predicted
+    real(wp) :: length, ratio
+    logical :: last
+
+    record%iterations = 0
+    record%cutbacks = 0
+    do
+      if (recorder%interrupted()) then
+        call fail(error, exit_interrupt, "interrupted at time "//to_text(time)//"; what was "// &
+                  "written before is kept")
+        return
+      end if
+      last = time + 1.000001_wp*h >= goal
+      length = h
+      if (last) length = goal - time
+      call remember(time, level, motion, before)
+      where (motion%system%timed) level = time + length
+      call take_step(motion, level, length, increment, predicted, outcome, error)
+      record%iterations = record%iterations + outcome%last%iteration
+      if (allocated(error)) return
+      ratio = 0
+      if (outcome%status == newton_converged .and. .not. analysis%time_step > 0) then
+        ratio = step_error(motion, increment, predicted)/analysis%tolerance
+      end if
+      if (outcome%status /= newton_converged .or. ratio > 1) then
+        call go_back(before, time, level, motion)
+        h = length*0.5_wp
+        if (ratio > 1) h = length*max(most_shrinking, safety*ratio**(-1.0_wp/3))
+        record%cutbacks = record%cutbacks + 1
+        if (record%cutbacks > most_halvings .and. .not. ratio > 1) then
+          call fail(error, exit_solve, "no solution found beyond time "//to_text(time)// &
+                    " with a step of "//to_text(length)//": "//reason(model, outcome))
+          return
+        end if
+        cycle
+      end if
+      call enter_step(motion, length, increment, account)
+      time = time + length
+      if (last) time = goal
+      record%size = length
+      record%last = outcome%last
+      if (.not. analysis%time_step > 0) then
+        h = max(h, length)
+        if (.not. last .or. ratio > safety**3) h = length
+        h = h*min(most_growth, safety*max(ratio, 1.0e-3_wp)**(-1.0_wp/3))
+      end if
+      if (last) return
+    end do
+  end subroutine reach
+
+  !> Estimate of the error of a step: a part of the difference between the increment and its
+  !> prediction with the old acceleration, in lengths of the model and radians.
+  pure real(wp) function step_error(motion, increment, predicted)
+    type(dynamics_t), intent(in) :: motion
+    real(wp), intent(in) :: increment(:), predicted(:)
+
+    step_error = abs(motion%scheme%beta - 1.0_wp/6)/motion%scheme%beta &
+                 *maxval(abs(increment - predicted)/motion%scale)
+  end function step_error
+
+  subroutine remember(time, level, motion, instant)
+    real(wp), intent(in) :: time, level(:)
+    type(dynamics_t), intent(in) :: motion
+    type(instant_t), intent(inout) :: instant
+
+    instant%time = time
+    instant%level = level
+    instant%iterate%state = motion%iterate%state
+    instant%iterate%stress = motion%iterate%stress
+    instant%flow = motion%flow
+  end subroutine remember
+
+  subroutine go_back(instant, time, level, motion)
+    type(instant_t), intent(in) :: instant
+    real(wp), intent(out) :: time, level(:)
+    type(dynamics_t), intent(inout) :: motion
+
+    time = instant%time
+    level = instant%level
+    motion%iterate%state = instant%iterate%state
+    motion%iterate%stress = instant%iterate%stress
+    motion%flow = instant%flow
+  end subroutine go_back
+
+  subroutine keep(model, motion, account, recorder, record, error)
+    type(model_t), intent(in) :: model
+    type(dynamics_t), intent(in) :: motion
+    type(account_t), intent(in) :: account
+    class(recorder_t), intent(inout) :: recorder
+    type(step_t), intent(in) :: record
+    type(error_t), allocatable, intent(out) :: error
+    type(results_t) :: results
+
+    call motion_results(model, motion, account, results)
+    call recorder%step(record, results, error)
+  end subroutine keep
+
+end module analysis_transient
