@@ -3,7 +3,7 @@ module analysis_run
   use kinds, only: wp
   use errors, only: error_t, fail, exit_deck
   use model_data, only: model_t, analysis_t, control_arc, analysis_static, analysis_buckling, &
-                        analysis_eigen, analysis_transient
+                        analysis_eigen, analysis_transient, analysis_compliance, analysis_names
   use linalg_solver, only: solver_t
   use system_data, only: system_t
   use system_build, only: build_system, find_system_pattern
@@ -64,12 +64,23 @@ contains
     call new_iterate(system, iterate)
     call solver%prepare(system%equations(), system%pattern%row, system%pattern%column, &
                         system%pattern%symmetric, error)
-    if (allocated(error) .or. .not. any(model%analysis%kind == analysis_static .or. &
-                                        model%analysis%kind == analysis_buckling)) return
+    if (allocated(error) .or. .not. needs_structure(model)) return
     call refuse_free_motion(model, system, solver, iterate, error)
     if (any(model%analysis%kind /= analysis_static)) return
     deallocate (system%pattern%row, system%pattern%column)  ! the solver has its own
   end subroutine set_up
+
+  !> Whether an analysis needs a structure: EIGEN and motions in time do not.
+  pure logical function needs_structure(model)
+    type(model_t), intent(in) :: model
+    integer :: i
+
+    needs_structure = .false.
+    do i = 1, size(model%analysis)
+      needs_structure = needs_structure .or. any(model%analysis(i)%kind == &
+        [analysis_static, analysis_buckling, analysis_compliance])
+    end do
+  end function needs_structure
 
   subroutine run_in_order(model, system, solver, iterate, recorder, error)
     type(model_t), intent(in) :: model
@@ -133,13 +144,15 @@ contains
       if (analysis%pattern > 0) system%timed(analysis%pattern) = .true.
       call run_transient(model, system, analysis, course%time, level, iterate, course%flow, &
                          recorder, error)
-    case default
+    case (analysis_static)
       if (allocated(course%flow)) deallocate (course%flow)
       if (analysis%control == control_arc) then
         call run_arc(model, system, solver, analysis, level, iterate, recorder, error)
       else
         call run_static(model, system, solver, analysis, level, iterate, recorder, error)
       end if
+    case default
+      call fail(error, exit_deck, trim(analysis_names(analysis%kind))//" is not available yet")
     end select
   end subroutine run_one
 

@@ -14,7 +14,7 @@ module recorder
   type, public :: iteration_t
     integer :: step = 0               !< recorded step it works for, from 1
     integer :: iteration = 0          !< within its increment of the load
-    real(wp) :: factor = 0.0_wp       !< load factor aimed at
+    real(wp) :: factor = 0.0_wp       !< load factor or time aimed at
     real(wp) :: increment = 0.0_wp    !< largest change, relative to the motion so far
     real(wp) :: residual = 0.0_wp     !< largest unbalanced force, relative to the forces
     real(wp) :: constraint = 0.0_wp   !< largest fixed strain, relative to the model's length

@@ -14,7 +14,8 @@ module deck_draft
   implicit none
   private
 
-  public :: draft_t, selection_t, item_t, record_t, beam_t, group_t, iteration_t, new_draft
+  public :: draft_t, selection_t, item_t, record_t, beam_t, group_t, iteration_t, &
+            timestep_t, new_draft
 
   integer, parameter, public :: select_all = 1, select_name = 2, select_range = 3
 
@@ -37,6 +38,8 @@ module deck_draft
   integer, parameter, public :: record_fix = 1, record_flexible = 2, record_release = 3, &
     record_stiffness = 4, record_inertia = 5, record_load = 6, record_marker = 7, &
     record_gravity = 8, record_control = 9, record_stop = 10
+  integer, parameter, public :: record_compliance = 21, record_kept_nodes = 22, &
+    record_kept_elements = 23
 
   !> A card about nodes or elements of a list.
   type :: record_t
@@ -85,6 +88,13 @@ module deck_draft
     type(place_t) :: place
   end type iteration_t
 
+  !> SPACAR's TIMESTEP.
+  type :: timestep_t
+    real(wp) :: end_time = 0.0_wp
+    integer :: steps = 0
+    type(place_t) :: place
+  end type timestep_t
+
   type :: draft_t
     type(report_t) :: report
     type(model_t) :: model
@@ -114,6 +124,9 @@ module deck_draft
     integer :: block = 1                              !< number of the stretch between analyses
     integer, allocatable :: analysis_steps(:)         !< STEPS of each analysis; 0: not given
     type(iteration_t) :: iteration
+    type(timestep_t) :: timestep
+    integer :: spacar_mode = 10                       !< of --mode, for a deck without analyses
+    type(place_t) :: damp_place                       !< of the DAMP card
     character(len=:), allocatable :: include_path     !< set by an INCLUDE card
     type(place_t) :: include_place
     logical :: complete = .true.                      !< a model to be run, not parts of one

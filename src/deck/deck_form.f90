@@ -82,7 +82,8 @@ contains
       return
     end do
     if (card%words <= at) then
-      call report%add_error(card%place(1), trim(usage(row)%name)//" needs a name and "//all)
+      if (at > 1) all = "a name and "//all
+      call report%add_error(card%place(1), trim(usage(row)%name)//" needs "//all)
     else
       best = nearest_word(card%word(at + 1), literals)
       if (best /= "") best = "did you mean "//best//"?"

@@ -12,6 +12,7 @@ module deck_keywords
   use deck_load_cards, only: read_fix, read_marker, read_xf, read_delxf, read_gravity, &
                              read_static, read_buckling, read_eigen, read_iterstep
   use deck_targets, only: read_imperfection
+  use deck_time_keywords, only: time_keywords, output_keywords, spacar_keywords
   implicit none
   private
 
@@ -24,7 +25,8 @@ contains
     type(keyword_t), allocatable :: table(:)
 
     table = [form_keywords(), model_keywords(), shape_keywords(), drawing_keywords(), &
-             element_keywords(), function_keywords(), load_keywords(), analysis_keywords()]
+             element_keywords(), function_keywords(), load_keywords(), analysis_keywords(), &
+             time_keywords(), output_keywords(), spacar_keywords()]
   end function keywords
 
   !> What concerns the deck itself.
@@ -266,8 +268,10 @@ contains
         "adds a mode of the last BUCKLING, by its row in the table of multipliers and with "// &
         "this largest displacement, to the undeformed shape; the next analysis starts from there", &
         "XF 2 -1 0 0|BUCKLING MODES 2|IMPERFECTION 1 0.01|STATIC", "", read_imperfection), &
-      keyword_t("EIGEN", "analysis", "", "MODES n:count=10 | NAME name:word", &
-        "finds the n lowest natural frequencies about the present state", &
+      keyword_t("EIGEN", "analysis", "", "MODES n:count=10 | NAME name:word | DAMPED | "// &
+        "MATRICES state:OFF/ON=OFF", &
+        "finds the n lowest natural frequencies about the present state. DAMPED: complex, with "// &
+        "what DAMP, EDAMP and MATERIAL DAMPING say; MATRICES ON keeps the matrices", &
         "EIGEN MODES 6", "mode 7", read_eigen), &
       keyword_t("ITERSTEP", "analysis", &
         "iterations:count n:count? tolerance:1? -:text? -:text? m:count?", "", &

@@ -3,9 +3,12 @@ module deck_loads
   use kinds, only: wp
   use text, only: to_text, plural
   use diagnostics, only: place_t
-  use model_data, only: load_t, marker_t, analysis_t, pattern_t, analysis_static, analysis_buckling
+  use model_data, only: load_t, marker_t, analysis_t, pattern_t, analysis_static, &
+                        analysis_buckling, analysis_eigen, time_analyses
   use deck_draft, only: draft_t, record_t, record_load, record_gravity
   use deck_growth, only: grow
+  use deck_modes, only: imply_analysis, implies_eigen, describe_analysis, check_timestep, &
+                        mode_check, mode_static
   use deck_points, only: neighbours_t, resolve_point
   use deck_select, only: choice_t, select_nodes, id_text
   implicit none
@@ -25,7 +28,7 @@ contains
     type(analysis_t), allocatable :: analysis(:)
     integer :: r, block, n, kind, patterns, pending(2)
 
-    allocate (pattern(2, draft%block), analysis(2*draft%block))
+    allocate (pattern(2, draft%block), analysis(2*draft%block + 1))
     pattern = 0
     do r = 1, draft%records
       associate (record => draft%record(r))
@@ -56,11 +59,16 @@ contains
       pending = max(pending, pattern(:, block))
       where (draft%model%imperfection%block == block) draft%model%imperfection%analysis = n + 1
       call add_analyses(draft, pending, block, patterns, analysis, n)
-      if (analysis(n)%kind == analysis_static) pending = 0
+      if (any([analysis_static, time_analyses] == analysis(n)%kind)) pending = 0
       if (all(pending > 0)) pending(base) = 0
     end do
+    if (implies_eigen(draft, analysis(n))) then
+      n = n + 1
+      analysis(n)%kind = analysis_eigen
+    end if
     allocate (draft%model%pattern(patterns))
     draft%model%analysis = analysis(:n)
+    call check_timestep(draft)
     if (draft%analyses == 0) call tell_implied(draft, pattern(:, 1))
   end subroutine set_analyses
 
@@ -85,6 +93,7 @@ contains
   end subroutine check_open
 
   !> The analysis that ends a block, and before it an implied STATIC where DELXF follows XF.
+  !> Without a pattern that is pending STATIC and BUCKLING take the last one, motions in time none.
   subroutine add_analyses(draft, pattern, block, patterns, analysis, n)
     type(draft_t), intent(in) :: draft
     integer, intent(in) :: pattern(2)
@@ -100,11 +109,16 @@ contains
     end if
     n = n + 1
     if (draft%analyses > 0) analysis(n) = draft%model%analysis(block)
-    analysis(n)%pattern = patterns
+    analysis(n)%pattern = merge(pattern(additional), pattern(base), pattern(additional) > 0)
+    if (analysis(n)%pattern == 0 .and. all(time_analyses /= analysis(n)%kind)) then
+      analysis(n)%pattern = patterns
+    end if
     analysis(n)%steps = merge(draft%iteration%additional_steps, draft%iteration%base_steps, &
                               pattern(additional) > 0)
     if (draft%analyses > 0) then
       if (draft%analysis_steps(block) > 0) analysis(n)%steps = draft%analysis_steps(block)
+    else
+      call imply_analysis(draft, any(pattern > 0), analysis(n))
     end if
     call set_defaults(draft, analysis(n))
   end subroutine add_analyses
@@ -127,12 +141,17 @@ contains
     steps = ""
     do i = 1, size(draft%model%analysis)
       if (i > 1) steps = steps//", then "
-      steps = steps//"STATIC STEPS "//to_text(draft%model%analysis(i)%steps)
+      steps = steps//describe_analysis(draft%model%analysis(i))
       if (draft%model%analysis(i)%pattern == pattern(additional) .and. pattern(additional) > 0) then
         steps = steps//" (DELXF)"
       end if
     end do
-    call draft%report%add_note(place_t(file=1), "no analysis given: "//steps)
+    if (any(draft%spacar_mode == [mode_check, mode_static])) then
+      steps = "no analysis given: "//steps
+    else
+      steps = "--mode "//to_text(draft%spacar_mode)//": "//steps
+    end if
+    call draft%report%add_note(place_t(file=1), steps)
   end subroutine tell_implied
 
   !> Loads behind the last analysis.

@@ -12,6 +12,7 @@ module deck_resolve
   use deck_points, only: neighbours_t, find_neighbours, set_markers
   use deck_loads, only: set_analyses, set_loads
   use deck_targets, only: set_targets
+  use deck_output_cards, only: set_output
   implicit none
   private
 
@@ -41,6 +42,7 @@ contains
     call set_analyses(draft, pattern)
     call set_markers(draft, neighbours)
     call set_targets(draft)
+    call set_output(draft)
     call set_loads(draft, neighbours, pattern)
     draft%model%point = draft%model%point(:draft%points)
     if (draft%report%errors() == 0 .and. draft%complete) call check_use(draft%model, draft%report)

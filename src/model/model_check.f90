@@ -5,7 +5,8 @@ module model_check
   use errors, only: error_t
   use diagnostics, only: place_t, report_t
   use section_check, only: check_constants
-  use model_data, only: model_t, member_t, section_t, mode_flexible, mass_none, analysis_eigen
+  use model_data, only: model_t, member_t, section_t, mode_flexible, mass_none, analysis_static, &
+                        analysis_buckling
   implicit none
   private
 
@@ -131,7 +132,8 @@ contains
                                                             to_text(node%id))
       end associate
     end do
-    if (size(model%pattern) == 0 .and. any(model%analysis%kind /= analysis_eigen)) then
+    if (size(model%pattern) == 0 .and. any(model%analysis%kind == analysis_static .or. &
+                                           model%analysis%kind == analysis_buckling)) then
       call report%add_warning(deck_place, "the deck has no loads")
     end if
     do i = 1, size(model%pattern)

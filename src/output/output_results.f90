@@ -2,7 +2,9 @@
 module output_results
   use kinds, only: i8
   use errors, only: error_t, fail, exit_io
-  use model_data, only: model_t, analysis_t, analysis_static, name_length, control_arc
+  use text, only: lower
+  use model_data, only: model_t, analysis_t, analysis_static, time_analyses, analysis_names, &
+                        name_length, control_arc
   use program_version, only: program_name, version
   use recorder, only: step_t, critical_t, critical_name
   use mode_results, only: modes_t
@@ -21,12 +23,11 @@ module output_results
   public :: result_file_t
 
   integer, parameter :: layout_version = 1
-  character(len=*), parameter :: kind_names(3) = ["static  ", "buckling", "eigen   "]
 
   integer, parameter :: load_factor = 1, displacement = 2, euler = 3, warping = 4, reaction = 5, &
                         load = 6, strain = 7, stress = 8, force_p = 9, force_q = 10, &
                         residual = 11, increment = 12, constraint = 13, point_stress = 14, &
-                        arc_length = 15, reals = 15
+                        arc_length = 15, time = 16, reals = 16
   integer, parameter :: step_number = 1, iterations = 2, cutbacks = 3, unstable = 4, wholes = 4
 
   type :: result_file_t
@@ -38,7 +39,8 @@ module output_results
     integer :: stress_places = 0                !< points where stresses are kept
     integer :: steps = 0                        !< kept so far, in all analyses
     character(len=:), allocatable :: group      !< of the present analysis
-    logical :: stepping = .true.                !< it has steps, else modes
+    logical :: stepping = .true.                !< it has steps, else modes or a table
+    logical :: in_time = .false.                !< its steps have a time, else a load factor
     integer :: number = 0                       !< of the present analysis
     type(vtk_writer_t) :: drawing
     integer :: critical_points = 0              !< of the present analysis
@@ -124,20 +126,23 @@ contains
     type(analysis_t), intent(in) :: analysis
     type(error_t), allocatable, intent(out) :: error
     character(len=12) :: digits
+    character(len=:), allocatable :: kind
     integer(i8) :: steps
 
+    kind = lower(trim(analysis_names(analysis%kind)))
     steps = merge(analysis%most_steps, analysis%steps, analysis%control == control_arc)
     self%number = number
     write (digits, "(i0.2)") number
-    self%group = "analysis/"//trim(digits)//"_"//trim(kind_names(analysis%kind))
+    self%group = "analysis/"//trim(digits)//"_"//kind
     if (analysis%name /= "") then
       self%group = "analysis/"//trim(digits)//"_"//link_name(trim(analysis%name))
     end if
     call self%file%group(self%group)
-    call self%file%set_text(self%group, "kind", trim(kind_names(analysis%kind)))
+    call self%file%set_text(self%group, "kind", kind)
     call self%file%set_number(self%group, "complete", 0)
     self%critical_points = 0
-    self%stepping = analysis%kind == analysis_static
+    self%stepping = any([analysis_static, time_analyses] == analysis%kind)
+    self%in_time = any(time_analyses == analysis%kind)
     if (.not. self%stepping) return
     call start_steps(self, steps)
     call start_nodes(self, steps)
@@ -153,8 +158,13 @@ contains
 
     call self%whole_table(step_number)%start_integers(self%file, self%group//"/step", steps, &
       about_t("1", "step", "number of the recorded step, from 1"))
-    call self%real_table(load_factor)%start_reals(self%file, self%group//"/load_factor", steps, &
-      about_t("1", "step", "factor of the load pattern"))
+    if (self%in_time) then
+      call self%real_table(time)%start_reals(self%file, self%group//"/time", steps, &
+        about_t("T", "step", "time"))
+    else
+      call self%real_table(load_factor)%start_reals(self%file, self%group//"/load_factor", steps, &
+        about_t("1", "step", "factor of the load pattern"))
+    end if
   end subroutine start_steps
 
   subroutine start_nodes(self, steps)
@@ -258,7 +268,11 @@ contains
       call whole(cutbacks)%append(file, step%cutbacks)
       call whole(unstable)%append(file, step%unstable)
       call table(arc_length)%append(file, step%arc)
-      call table(load_factor)%append(file, step%factor)
+      if (self%in_time) then
+        call table(time)%append(file, step%time)
+      else
+        call table(load_factor)%append(file, step%factor)
+      end if
       call table(residual)%append(file, step%last%residual)
       call table(increment)%append(file, step%last%increment)
       call table(constraint)%append(file, step%last%constraint)
@@ -330,6 +344,7 @@ contains
 
     do i = 1, merge(reals, 0, self%stepping)
       if (i == point_stress .and. self%stress_places == 0) cycle
+      if (i == merge(load_factor, time, self%in_time)) cycle
       call self%real_table(i)%finish(self%file)
     end do
     do i = 1, merge(wholes, 0, self%stepping)

@@ -14,7 +14,7 @@ module output_vtkhdf
                   h5_integer_kind
   use kinds, only: wp, sp, i8
   use rotation, only: no_rotation
-  use model_data, only: model_t, control_arc, analysis_static
+  use model_data, only: model_t, control_arc, mode_analyses, analysis_compliance
   use system_results, only: results_t
   use mode_results, only: modes_t
   use output_hdf5, only: hdf5_file_t, about_t
@@ -108,7 +108,8 @@ contains
     expected_steps = 0
     do i = 1, size(model%analysis)
       associate (a => model%analysis(i))
-        if (a%kind /= analysis_static) then
+        if (a%kind == analysis_compliance) cycle
+        if (any(mode_analyses == a%kind)) then
           expected_steps = expected_steps + a%modes
         else
           expected_steps = expected_steps + merge(a%most_steps, a%steps, a%control == control_arc)
