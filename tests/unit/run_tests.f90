@@ -10,6 +10,8 @@ program run_tests
   use test_deck_form, only: run_deck_form_tests
   use test_deck_model, only: run_deck_model_tests
   use test_deck_wrong, only: run_deck_wrong_tests
+  use test_formula_derivatives, only: run_formula_derivatives_tests
+  use test_deck_analyses, only: run_deck_analyses_tests
   use test_model_axes, only: run_model_axes_tests
   use test_element_beamw, only: run_element_beamw_tests
   use test_beamw_inertia, only: run_beamw_inertia_tests
@@ -43,6 +45,8 @@ program run_tests
   call run_deck_form_tests()
   call run_deck_model_tests()
   call run_deck_wrong_tests()
+  call run_formula_derivatives_tests()
+  call run_deck_analyses_tests()
   call run_model_axes_tests()
   call run_element_beamw_tests()
   call run_beamw_inertia_tests()
