@@ -12,6 +12,8 @@ program run_tests
   use test_deck_wrong, only: run_deck_wrong_tests
   use test_model_axes, only: run_model_axes_tests
   use test_element_beamw, only: run_element_beamw_tests
+  use test_element_joints, only: run_element_joints_tests
+  use test_joint_motions, only: run_joint_motions_tests
   use test_beamw_inertia, only: run_beamw_inertia_tests
   use test_column_vibration, only: run_column_vibration_tests
   use test_static, only: run_static_tests
@@ -45,6 +47,8 @@ program run_tests
   call run_deck_wrong_tests()
   call run_model_axes_tests()
   call run_element_beamw_tests()
+  call run_element_joints_tests()
+  call run_joint_motions_tests()
   call run_beamw_inertia_tests()
   call run_column_vibration_tests()
   call run_static_tests()
