@@ -14,6 +14,8 @@ program run_tests
   use test_deck_analyses, only: run_deck_analyses_tests
   use test_model_axes, only: run_model_axes_tests
   use test_element_beamw, only: run_element_beamw_tests
+  use test_element_joints, only: run_element_joints_tests
+  use test_joint_motions, only: run_joint_motions_tests
   use test_beamw_inertia, only: run_beamw_inertia_tests
   use test_column_vibration, only: run_column_vibration_tests
   use test_static, only: run_static_tests
@@ -49,6 +51,8 @@ program run_tests
   call run_deck_analyses_tests()
   call run_model_axes_tests()
   call run_element_beamw_tests()
+  call run_element_joints_tests()
+  call run_joint_motions_tests()
   call run_beamw_inertia_tests()
   call run_column_vibration_tests()
   call run_static_tests()
