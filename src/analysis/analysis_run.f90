@@ -1,7 +1,8 @@
 !> Run the analyses of a model, in their order.
 module analysis_run
   use kinds, only: wp
-  use errors, only: error_t, fail, exit_deck
+  use errors, only: error_t, fail, exit_deck, exit_io
+  use text, only: to_text
   use model_data, only: model_t, analysis_t, control_arc, analysis_static, analysis_buckling, &
                         analysis_eigen, analysis_transient, analysis_compliance, analysis_names
   use linalg_solver, only: solver_t
@@ -57,6 +58,8 @@ contains
     class(recorder_t), intent(inout) :: recorder
     type(error_t), allocatable, intent(out) :: error
 
+    call check_memory(size(model%member), error)
+    if (allocated(error)) return
     call build_system(model, system)
     call warn_of_redundant(model, system, recorder, error)
     if (allocated(error)) return
@@ -155,6 +158,19 @@ contains
       call fail(error, exit_deck, trim(analysis_names(analysis%kind))//" is not available yet")
     end select
   end subroutine run_one
+
+  !> Ask at once for the least that so many elements will need, 4 kB each: where memory ends in
+  !> small steps the Fortran library cannot even say so.
+  subroutine check_memory(elements, error)
+    integer, intent(in) :: elements
+    type(error_t), allocatable, intent(out) :: error
+    real(wp), allocatable :: block(:, :)
+    integer :: status
+
+    allocate (block(512, elements), stat=status)
+    if (status /= 0) call fail(error, exit_io, "there is not enough memory for "// &
+                               to_text(elements)//" elements")
+  end subroutine check_memory
 
   !> Redundant constraints that agree are left out, with a warning for each.
   subroutine warn_of_redundant(model, system, recorder, error)

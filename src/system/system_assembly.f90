@@ -78,7 +78,7 @@ contains
       end associate
       if (iterate%invalid > 0) return
     end do
-    call set_targets(system, level, iterate%target)
+    if (size(system%drive) > 0) call set_targets(system, level, iterate%target)
     call add_loads(system, iterate%state, level, iterate%external, iterate%values)
   end subroutine assemble
 

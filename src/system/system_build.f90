@@ -67,9 +67,12 @@ contains
   pure function mass_nodes(model) result(node)
     type(model_t), intent(in) :: model
     integer, allocatable :: node(:)
-    logical :: heavy(size(model%node))
+    logical, allocatable :: heavy(:)
     integer :: i
 
+    node = [integer ::]
+    if (size(model%mass) == 0) return
+    allocate (heavy(size(model%node)))
     heavy = .false.
     heavy(model%mass%node) = .true.
     node = pack([(i, i=1, size(heavy))], heavy)

@@ -25,12 +25,13 @@ contains
     type(model_t), intent(in) :: model
     type(system_t), intent(inout) :: system
     logical, intent(out) :: twists(:)
-    logical :: held(components, size(model%node)), linear(components)
+    logical, allocatable :: held(:, :)
+    logical :: linear(components)
     integer :: i, n
 
     linear = .true.
     linear(4:6) = .false.
-    held = driven_coordinates(model)
+    call find_driven(model, held)
     do i = 1, system%nodes
       held(4:6, i) = rotation_constraints(model%node(i)%fixed(4:6), held(4:6, i))
     end do
@@ -57,11 +58,12 @@ contains
   end subroutine make_elements
 
   !> Coordinates of the nodes that some motion prescribes.
-  pure function driven_coordinates(model) result(driven)
+  pure subroutine find_driven(model, driven)
     type(model_t), intent(in) :: model
-    logical :: driven(components, size(model%node))
+    logical, allocatable, intent(out) :: driven(:, :)
     integer :: p, i
 
+    allocate (driven(components, size(model%node)))
     driven = .false.
     do p = 1, size(model%pattern)
       do i = 1, model%pattern(p)%motions
@@ -70,7 +72,7 @@ contains
         end associate
       end do
     end do
-  end function driven_coordinates
+  end subroutine find_driven
 
   !> Components of a node's rotation that need a constraint: those prescribed and, beside them or
   !> if it is the only one, those fixed.

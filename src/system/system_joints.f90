@@ -36,7 +36,10 @@ contains
       end select
     end do
     do i = 1, size(model%joint)
-      call make_joint(model, model%joint(i), slot, slot(i), system%element(system%members + i)%e)
+      associate (element => system%element(system%members + i))
+        call make_joint(model, model%joint(i), slot, slot(i), element%e)
+        if (.not. element%e%size > 0) element%e%size = system%length
+      end associate
     end do
   end subroutine make_joints
 

@@ -77,8 +77,6 @@ contains
     real(wp), dimension(size(target)) :: first, second
     integer :: p
 
-    target = 0
-    if (size(system%drive) == 0) return
     call derivatives(system, level, [(.false., p=1, size(level))], target, first, second)
   end subroutine set_targets
 
