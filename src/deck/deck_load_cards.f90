@@ -92,7 +92,7 @@ contains
     record%of_place = card%place(w + 1)
   end subroutine read_point
 
-  !> XF nodes values [FUNCTION f] [AT oy oz] [OF element]
+  !> XF nodes values [FUNCTION f] [AT oy oz] [OF element] [FOLLOWER]
   subroutine read_xf(card, draft)
     type(card_t), intent(in) :: card
     type(draft_t), intent(inout) :: draft
@@ -126,6 +126,9 @@ contains
     call read_point(card, 2, record)
     if (record%of_given .and. card%option(2) == 0) call draft%report%add_error( &
       card%place(card%option(3)), "OF names the section that AT refers to: AT is missing")
+    record%follower = card%option(4) > 0
+    if (record%follower .and. record%values == 1) call draft%report%add_error( &
+      card%place(card%option(4)), "a bimoment has no direction that could follow")
     if (card%option(2) > 0 .and. record%values == 1) call draft%report%add_error( &
       card%place(card%option(2)), "a bimoment alone acts at the node, not AT a point")
     call add_record(card, 2, draft, record)

@@ -5,7 +5,8 @@ module deck_loads
   use diagnostics, only: place_t
   use model_data, only: load_t, marker_t, analysis_t, pattern_t, analysis_static, &
                         analysis_buckling, analysis_eigen, time_analyses
-  use deck_draft, only: draft_t, record_t, record_load, record_gravity
+  use deck_draft, only: draft_t, record_t, record_load, record_gravity, record_strain, &
+                        record_coordinate
   use deck_growth, only: grow
   use deck_modes, only: imply_analysis, implies_eigen, describe_analysis, check_timestep, &
                         mode_check, mode_static
@@ -17,6 +18,7 @@ module deck_loads
   public :: set_analyses, set_loads
 
   integer, parameter :: base = 1, additional = 2
+  integer, parameter :: loads(2) = [record_load, record_gravity]  !< kinds of records
 
 contains
 
@@ -32,7 +34,7 @@ contains
     pattern = 0
     do r = 1, draft%records
       associate (record => draft%record(r))
-        if (record%kind == record_load .or. record%kind == record_gravity) then
+        if (is_applied(record)) then
           pattern(merge(additional, base, record%additional), record%block) = 1
         end if
       end associate
@@ -72,6 +74,14 @@ contains
     if (draft%analyses == 0) call tell_implied(draft, pattern(:, 1))
   end subroutine set_analyses
 
+  !> Whether a card is of a pattern: a load, or a motion with values.
+  pure logical function is_applied(record)
+    type(record_t), intent(in) :: record
+
+    is_applied = any(record%kind == loads) .or. &
+                 (any(record%kind == [record_strain, record_coordinate]) .and. record%values > 0)
+  end function is_applied
+
   !> Loads behind a BUCKLING or EIGEN belong to the pattern that STATIC has not yet applied;
   !> BUCKLING took it as a whole.
   subroutine check_open(draft, block)
@@ -82,8 +92,7 @@ contains
     if (draft%model%analysis(block - 1)%kind /= analysis_buckling) return
     do r = 1, draft%records
       associate (record => draft%record(r))
-        if (record%block /= block) cycle
-        if (record%kind /= record_load .and. record%kind /= record_gravity) cycle
+        if (record%block /= block .or. .not. is_applied(record)) cycle
         call draft%report%add_error(record%place, "this load comes behind BUCKLING, which"// &
           " scales the loads before it as a whole", "give all loads before BUCKLING, or apply"// &
           " the first ones by STATIC")
@@ -137,7 +146,7 @@ contains
     integer :: i
     character(len=:), allocatable :: steps
 
-    if (draft%report%errors() > 0 .or. draft%members == 0) return
+    if (draft%report%errors() > 0 .or. draft%members + draft%joints == 0) return
     steps = ""
     do i = 1, size(draft%model%analysis)
       if (i > 1) steps = steps//", then "
@@ -162,9 +171,9 @@ contains
 
     do r = 1, draft%records
       associate (record => draft%record(r))
-        if (record%block /= block) cycle
-        if (record%kind /= record_load .and. record%kind /= record_gravity) cycle
-        call draft%report%add_warning(record%place, "no analysis follows this load: it is not used")
+        if (record%block /= block .or. .not. is_applied(record)) cycle
+        call draft%report%add_warning(record%place, "no analysis follows this "// &
+          trim(merge("load  ", "motion", any(record%kind == loads)))//": it is not used")
       end associate
     end do
   end subroutine warn_of_unused
@@ -196,8 +205,8 @@ contains
       end associate
     end do
     do p = 1, size(draft%model%pattern)
-      associate (loads => draft%model%pattern(p))
-        loads%load = loads%load(:loads%loads)
+      associate (applied => draft%model%pattern(p))
+        applied%load = applied%load(:applied%loads)
       end associate
     end do
   end subroutine set_loads
@@ -237,11 +246,12 @@ contains
       load%marker = draft%points
     end if
     load%function = draft%functions%reference(record%function)
+    load%follower = record%follower
     load%place = record%place
-    associate (loads => draft%model%pattern(p))
-      loads%loads = loads%loads + 1
-      call grow(loads%load, loads%loads)
-      loads%load(loads%loads) = load
+    associate (applied => draft%model%pattern(p))
+      applied%loads = applied%loads + 1
+      call grow(applied%load, applied%loads)
+      applied%load(applied%loads) = load
     end associate
   end subroutine add_load
 
@@ -278,6 +288,12 @@ contains
         load%moment = value(4:6)
         if (record%values == 7) load%bimoment = value(7)
       end select
+      if (ok .and. record%follower .and. .not. node%exists(2)) then
+        ok = .false.
+        if (.not. (choice%loose(i) .or. draft%elements_incomplete)) call draft%report%add_error( &
+          choice%place(i), "FOLLOWER turns with the rotation of "//name//", which it does not have")
+        return
+      end if
       if (ok .or. choice%loose(i) .or. draft%elements_incomplete) return
       call draft%report%add_error(choice%place(i), plural(record%values, "value")// &
                                   " do not fit "//name//", which has "//kinds(node%exists), &
