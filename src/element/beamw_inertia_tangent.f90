@@ -3,7 +3,7 @@
 !> Coordinates of an end as in `beamw_inertia`: r (3), spatial spin (3), alpha; those of p, then q.
 module beamw_inertia_tangent
   use kinds, only: wp
-  use rotation, only: cross, skew, identity3
+  use rotation, only: cross, add_skew, add_turned, identity3
   use beamw_inertia, only: inertia_t, ends_t, ends_of
   use rotary_inertia, only: rotary_moment
   implicit none
@@ -48,9 +48,9 @@ contains
     do e = 1, 2
       force(1:3, e) = p(:, 2*e - 1)
       force(4:7, e) = matmul(p(:, 2*e), ends%slope(:, :, e))
-      call turn_arms(ends%d(:, e), ends%s(:, e), p(:, 2*e), place(7*e - 3:7*e, 7*e - 3:7*e))
+      call turn_arms(ends%d(:, e), ends%s(:, e), p(:, 2*e), 7*e - 4, place)
       call add_section(self%warping, ends%rotary(:, :, e), velocity(:, e), acceleration(:, e), &
-                       7*e - 3, force(:, e), mass, rate, place)
+                       7*e - 4, force(:, e), mass, rate, place)
     end do
   end subroutine inertia_force_and_tangents
 
@@ -60,19 +60,24 @@ contains
     real(wp), intent(in) :: d(3), s(3)
     real(wp), intent(in) :: v(4), a(4)  !< w, alpha' and w', alpha''
     real(wp), intent(out) :: second(3), of_velocity(3, 4), of_place(3, 4)
-    real(wp) :: of_d(3, 3), of_s(3, 3), along
+    real(wp) :: of_d(3, 3), of_s(3, 3), w(3)
     integer :: j
 
-    along = dot_product(v(1:3), d)
-    of_s = 2*v(4)*skew(v(1:3)) + a(4)*identity3
-    of_d = skew(a(1:3)) - dot_product(v(1:3), v(1:3))*identity3
-    of_velocity(:, 1:3) = -2*v(4)*skew(s) + along*identity3
+    w = v(1:3)
+    of_s = a(4)*identity3
+    call add_skew(2*v(4), w, of_s)
+    of_d = -dot_product(w, w)*identity3
+    call add_skew(1.0_wp, a(1:3), of_d)
+    of_velocity(:, 1:3) = dot_product(w, d)*identity3
+    call add_skew(-2*v(4), s, of_velocity)
     do j = 1, 3
-      of_d(:, j) = of_d(:, j) + v(1:3)*v(j)
-      of_velocity(:, j) = of_velocity(:, j) + v(1:3)*d(j) - 2*d*v(j)
+      of_d(:, j) = of_d(:, j) + w*w(j)
+      of_velocity(:, j) = of_velocity(:, j) + w*d(j) - 2*d*w(j)
     end do
-    of_velocity(:, 4) = 2*cross(v(1:3), s)
-    of_place(:, 1:3) = -matmul(of_d, skew(d)) - matmul(of_s, skew(s))
+    of_velocity(:, 4) = 2*cross(w, s)
+    of_place = 0
+    call add_turned(of_d, d, of_place)
+    call add_turned(of_s, s, of_place)
     of_place(:, 4) = matmul(of_d, s)
     second = matmul(of_d, d) + matmul(of_s, s)
   end subroutine accelerate
@@ -82,16 +87,20 @@ contains
     real(wp), intent(in) :: line(4, 4)
     real(wp), intent(in), dimension(3, 4, 2) :: slope, change
     real(wp), intent(out) :: tangent(14, 14)
-    integer :: i, j, k
+    real(wp) :: c(3)
+    integer :: i, j, k, at
 
     do j = 1, 2
       tangent(:, 7*j - 6:7*j - 4) = 0
       do k = 1, 4
+        c = change(:, k, j)
         do i = 1, 2
-          associate (column => tangent(7*i - 6:7*i, 7*j - 4 + k), c => change(:, k, j))
-            column(1:3) = line(2*i - 1, 2*j)*c
-            column(4:7) = line(2*i, 2*j)*matmul(c, slope(:, :, i))
-          end associate
+          at = 7*i - 7
+          tangent(at + 1:at + 3, 7*j - 4 + k) = line(2*i - 1, 2*j)*c
+          tangent(at + 4, 7*j - 4 + k) = line(2*i, 2*j)*dot_product(slope(:, 1, i), c)
+          tangent(at + 5, 7*j - 4 + k) = line(2*i, 2*j)*dot_product(slope(:, 2, i), c)
+          tangent(at + 6, 7*j - 4 + k) = line(2*i, 2*j)*dot_product(slope(:, 3, i), c)
+          tangent(at + 7, 7*j - 4 + k) = line(2*i, 2*j)*dot_product(slope(:, 4, i), c)
         end do
       end do
     end do
@@ -103,52 +112,52 @@ contains
     real(wp), intent(inout) :: mass(14, 14)
     integer :: i, j, k
 
-    do j = 1, 14, 7
-      do i = 1, 14, 7
-        do k = 0, 2
-          mass(i + k, j + k) = line((i + 6)/7*2 - 1, (j + 6)/7*2 - 1)
-          mass(i + 3:i + 6, j + k) = mass(j + k, i + 3:i + 6)
+    do j = 1, 2
+      do i = 1, 2
+        do k = 1, 3
+          mass(7*i - 7 + k, 7*j - 7 + k) = line(2*i - 1, 2*j - 1)
+          mass(7*i - 3:7*i, 7*j - 7 + k) = mass(7*j - 7 + k, 7*i - 3:7*i)
         end do
       end do
     end do
   end subroutine add_translation
 
   !> The arms d and s of the force p turn: derivatives of d x p and s.p to spin and alpha.
-  pure subroutine turn_arms(d, s, p, tangent)
+  pure subroutine turn_arms(d, s, p, at, place)
     real(wp), intent(in) :: d(3), s(3), p(3)
-    real(wp), intent(inout) :: tangent(4, 4)
+    integer, intent(in) :: at  !< what comes before the spins of the end
+    real(wp), intent(inout) :: place(14, 14)
     real(wp) :: arm(3)
     integer :: j
 
     arm = cross(s, p)
     do j = 1, 3
-      tangent(1:3, j) = tangent(1:3, j) + d*p(j) - dot_product(d, p)*identity3(:, j)
+      place(at + 1:at + 3, at + j) = place(at + 1:at + 3, at + j) + d*p(j)
+      place(at + j, at + j) = place(at + j, at + j) - dot_product(d, p)
+      place(at + j, at + 4) = place(at + j, at + 4) + arm(j)
+      place(at + 4, at + j) = place(at + 4, at + j) + arm(j)
     end do
-    tangent(1:3, 4) = tangent(1:3, 4) + arm
-    tangent(4, 1:3) = tangent(4, 1:3) + arm
   end subroutine turn_arms
 
   !> The section of an end: rotary inertia, and that of warping.
   pure subroutine add_section(warping, tensor, v, a, at, force, mass, rate, place)
     real(wp), intent(in) :: warping, tensor(3, 3), v(7), a(7)
-    integer, intent(in) :: at  !< the first of its spins
+    integer, intent(in) :: at  !< what comes before the spins of the end
     real(wp), intent(inout) :: force(7)
     real(wp), intent(inout), dimension(14, 14) :: mass, rate, place
     real(wp) :: moment(3)
     real(wp), dimension(3, 3) :: to_spin, to_place
-    integer :: i, j
+    integer :: j
 
     call rotary_moment(tensor, v(4:6), a(4:6), moment, to_spin, to_place)
     force(4:6) = force(4:6) + moment
     force(7) = force(7) + warping*a(7)
     do j = 1, 3
-      do i = 1, 3
-        mass(at - 1 + i, at - 1 + j) = mass(at - 1 + i, at - 1 + j) + tensor(i, j)
-        rate(at - 1 + i, at - 1 + j) = rate(at - 1 + i, at - 1 + j) + to_spin(i, j)
-        place(at - 1 + i, at - 1 + j) = place(at - 1 + i, at - 1 + j) + to_place(i, j)
-      end do
+      mass(at + 1:at + 3, at + j) = mass(at + 1:at + 3, at + j) + tensor(:, j)
+      rate(at + 1:at + 3, at + j) = rate(at + 1:at + 3, at + j) + to_spin(:, j)
+      place(at + 1:at + 3, at + j) = place(at + 1:at + 3, at + j) + to_place(:, j)
     end do
-    mass(at + 3, at + 3) = mass(at + 3, at + 3) + warping
+    mass(at + 4, at + 4) = mass(at + 4, at + 4) + warping
   end subroutine add_section
 
 end module beamw_inertia_tangent

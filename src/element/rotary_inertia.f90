@@ -4,7 +4,7 @@
 !> body (theory 7).
 module rotary_inertia
   use kinds, only: wp
-  use rotation, only: cross, skew
+  use rotation, only: cross, add_skew, add_turned
   implicit none
   private
 
@@ -21,14 +21,29 @@ contains
     real(wp), intent(out) :: moment(3)       !< [F L]
     real(wp), intent(out) :: to_spin(3, 3)   !< [F L T]
     real(wp), intent(out) :: to_place(3, 3)  !< [F L]
-    real(wp) :: momentum(3), gain(3), w(3, 3)
+    real(wp) :: momentum(3), gain(3), turned_momentum(3, 3)
+    integer :: j
 
-    w = skew(spin)
     momentum = matmul(tensor, spin)
     gain = matmul(tensor, rate)
     moment = gain + cross(spin, momentum)
-    to_spin = matmul(w, tensor) - skew(momentum)
-    to_place = matmul(tensor, skew(rate)) - skew(gain) - matmul(w, transpose(to_spin))
+    call turn_product(tensor, spin, momentum, turned_momentum)
+    call turn_product(tensor, rate, gain, to_place)
+    to_spin = -transpose(turned_momentum)
+    do j = 1, 3
+      to_place(:, j) = to_place(:, j) + cross(spin, turned_momentum(:, j))
+    end do
   end subroutine rotary_moment
+
+  !> Derivative of J v to a turn of J: J skew(v) - skew(J v).
+  pure subroutine turn_product(tensor, v, product, derivative)
+    real(wp), intent(in) :: tensor(3, 3), v(3)
+    real(wp), intent(in) :: product(3)  !< J v
+    real(wp), intent(out) :: derivative(3, 3)
+
+    derivative = 0
+    call add_turned(tensor, -v, derivative)
+    call add_skew(-1.0_wp, product, derivative)
+  end subroutine turn_product
 
 end module rotary_inertia

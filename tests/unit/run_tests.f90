@@ -13,6 +13,8 @@ program run_tests
   use test_model_axes, only: run_model_axes_tests
   use test_element_beamw, only: run_element_beamw_tests
   use test_beamw_inertia, only: run_beamw_inertia_tests
+  use test_inertia_tangent, only: run_inertia_tangent_tests
+  use test_rotating_inertia, only: run_rotating_inertia_tests
   use test_column_vibration, only: run_column_vibration_tests
   use test_static, only: run_static_tests
   use test_dead_loads, only: run_dead_loads_tests
@@ -46,6 +48,8 @@ program run_tests
   call run_model_axes_tests()
   call run_element_beamw_tests()
   call run_beamw_inertia_tests()
+  call run_inertia_tangent_tests()
+  call run_rotating_inertia_tests()
   call run_column_vibration_tests()
   call run_static_tests()
   call run_dead_loads_tests()
