@@ -6,7 +6,8 @@ module test_rotating_inertia
   use node_inertia, only: node_inertia_t, node_momentum, node_kinetic_energy
   use truss_inertia, only: truss_mass
   use rotating_inertia, only: rotating_beamw, rotating_node, rotating_truss
-  use particle_body, only: place_t, line_mass, length, no_turn, unit, some_inertia, some_place, moved
+  use particle_body, only: place_t, line_mass, length, no_turn, unit, some_inertia, some_place, &
+                           moved
   implicit none
   private
 
