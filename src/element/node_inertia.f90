@@ -48,9 +48,11 @@ contains
     type(node_inertia_t), intent(in) :: self
     real(wp), intent(in) :: euler(0:3), velocity(6)
     real(wp) :: momentum(6)  !< [M L T^-1] and [M L^2 T^-1]
+    real(wp) :: tensor(3, 3)
 
+    tensor = turned_tensor(self, euler)
     momentum(1:3) = self%mass*velocity(1:3)
-    momentum(4:6) = matmul(turned_tensor(self, euler), velocity(4:6))
+    momentum(4:6) = matmul(tensor, velocity(4:6))
   end function node_momentum
 
   !> Kinetic energy [F L].

@@ -5,6 +5,7 @@
 module system_dynamics
   use kinds, only: wp
   use nodal_state, only: state_t
+  use rotation, only: skew
   use beamw_inertia, only: inertia_force
   use beamw_inertia_tangent, only: inertia_force_and_tangents
   use node_inertia, only: node_inertia_forces
@@ -105,11 +106,30 @@ contains
         force(at) = force(at) + f(:n)
         rate(:n, :n) = shares%velocity*rate(:n, :n) + shares%acceleration*mass(:n, :n)
         call turn_columns(masses, k, shares, rate(:n, :n))
+        call symmetrize_place(masses, k, f(:n), place(:n, :n))
         place(:n, :n) = place(:n, :n) + rate(:n, :n)
         call add_block(system%pattern, masses%block(k), place(:n, :n), values)
       end associate
     end do
   end subroutine add_inertia
+
+  !> The derivative to the place as that of the elements, with second derivatives along exp(theta):
+  !> half the skew of a moment less than that of its components; with all moments in balance the
+  !> difference vanishes.
+  pure subroutine symmetrize_place(masses, k, force, place)
+    type(masses_t), intent(in) :: masses
+    integer, intent(in) :: k
+    real(wp), intent(in) :: force(:)
+    real(wp), intent(inout) :: place(:, :)
+    integer :: e
+
+    do e = 1, 2
+      if (masses%node(2, e, k) == 0) cycle
+      associate (spin => [7*e - 3, 7*e - 2, 7*e - 1])
+        place(spin, spin) = place(spin, spin) + 0.5_wp*skew(force(spin))
+      end associate
+    end do
+  end subroutine symmetrize_place
 
   !> Columns of rotations, from rotation vectors of the step to spins.
   pure subroutine turn_columns(masses, k, shares, tangent)

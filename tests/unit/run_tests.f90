@@ -17,6 +17,8 @@ program run_tests
   use test_element_joints, only: run_element_joints_tests
   use test_joint_motions, only: run_joint_motions_tests
   use test_beamw_inertia, only: run_beamw_inertia_tests
+  use test_inertia_tangent, only: run_inertia_tangent_tests
+  use test_rotating_inertia, only: run_rotating_inertia_tests
   use test_column_vibration, only: run_column_vibration_tests
   use test_static, only: run_static_tests
   use test_dead_loads, only: run_dead_loads_tests
@@ -54,6 +56,8 @@ program run_tests
   call run_element_joints_tests()
   call run_joint_motions_tests()
   call run_beamw_inertia_tests()
+  call run_inertia_tangent_tests()
+  call run_rotating_inertia_tests()
   call run_column_vibration_tests()
   call run_static_tests()
   call run_dead_loads_tests()
