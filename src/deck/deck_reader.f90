@@ -88,6 +88,9 @@ contains
     call move_alloc(draft%model%analysis, model%analysis)
     call move_alloc(draft%model%setting, model%setting)
     call move_alloc(draft%model%imperfection, model%imperfection)
+    call move_alloc(draft%model%joint, model%joint)
+    call move_alloc(draft%model%mass, model%mass)
+    call move_alloc(draft%model%start, model%start)
   end subroutine move_model
 
   subroutine compile(table)
