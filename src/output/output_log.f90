@@ -4,8 +4,8 @@ module output_log
   use, intrinsic :: iso_fortran_env, only: output_unit, error_unit
   use kinds, only: wp, i8
   use text, only: to_text, plural, string_t
-  use model_data, only: model_t, analysis_t, analysis_static, analysis_buckling, control_load, &
-                        control_arc
+  use model_data, only: model_t, analysis_t, analysis_buckling, analysis_compliance, &
+                        analysis_names, time_analyses, mode_analyses, control_load, control_arc
   use program_version, only: program_name, version
   use recorder, only: step_t, iteration_t
   use mode_results, only: modes_t, mode_lines
@@ -21,16 +21,17 @@ module output_log
   integer, parameter :: most_rows = 40                   !< of the table of an analysis
   real(wp), parameter :: patience = 0.5_wp, pause = 0.1_wp  !< first progress line, later ones [s]
   character(len=*), parameter :: erase = achar(13)//achar(27)//"[K"
-  character(len=*), parameter :: kind_names(3) = ["STATIC  ", "BUCKLING", "EIGEN   "]
 
   !> What the summary says of an analysis.
   type :: summary_t
     character(len=:), allocatable :: name
     integer :: steps = 0, iterations = 0, cutbacks = 0
-    real(wp) :: factor = 0.0_wp
+    logical :: in_time = .false.
+    real(wp) :: factor = 0.0_wp                  !< load factor or time
     real(wp) :: largest = 0.0_wp                 !< displacement at the end
     character(len=:), allocatable :: where       !< its node
-    integer :: modes = -1                        !< found; -1: it has steps
+    integer :: found = -1                        !< modes, or nodes asked for; -1: it has steps
+    character(len=4) :: noun = "mode"            !< what `found` counts
     logical :: complete = .false.
   end type summary_t
 
@@ -43,6 +44,7 @@ module output_log
     integer :: steps = 0                !< of the present analysis, at most
     integer :: every = 1                !< steps from one row of its table to the next
     logical :: counted = .true.         !< it makes exactly so many steps
+    logical :: in_time = .false.        !< its steps have a time, else a load factor
     character(len=:), allocatable :: row     !< of the last step, if not yet printed
     integer :: warnings = 0
     character(len=20), allocatable :: node(:)
@@ -107,35 +109,59 @@ contains
     type(analysis_t), intent(in) :: analysis
 
     self%analyses = number
+    self%in_time = any(time_analyses == analysis%kind)
     self%counted = analysis%control /= control_arc
     self%steps = merge(analysis%steps, analysis%most_steps, self%counted)
+    if (self%in_time) self%counted = max(analysis%time_step, analysis%every) > 0
     self%every = row_distance(self%steps)
     self%row = ""
     if (self%level == log_verbose) self%every = 1
     associate (summary => self%summary(number))
-      summary%name = to_text(number)//" "//trim(kind_names(analysis%kind))
+      summary%name = to_text(number)//" "//trim(analysis_names(analysis%kind))
       if (analysis%name /= "") summary%name = summary%name//" "//trim(analysis%name)
       summary%where = ""
       call say(self, "")
       call say(self, "Analysis "//summary%name//": "//purpose(analysis))
-      if (analysis%kind /= analysis_static) summary%modes = 0
+      if (any(mode_analyses == analysis%kind)) summary%found = 0
+      if (analysis%kind == analysis_compliance) then
+        summary%found = size(analysis%node)
+        summary%noun = "node"
+      end if
+      summary%in_time = self%in_time
     end associate
-    if (analysis%kind /= analysis_static) return
+    if (any([mode_analyses, analysis_compliance] == analysis%kind)) return
     if (self%level == log_verbose) then
-      call say(self, "    step   load factor   iteration   residual   increment")
+      call say(self, "    step   "//progress_name(self)//"   iteration   residual   increment")
     else
-      call say(self, "    step   load factor   iterations   residual   increment"// &
+      call say(self, "    step   "//progress_name(self)//"   iterations   residual   increment"// &
                "   largest displacement")
     end if
   end subroutine begin_analysis
+
+  !> What tells the steps of the present analysis apart.
+  pure character(len=11) function progress_name(self)
+    type(run_log_t), intent(in) :: self
+
+    progress_name = merge("       time", "load factor", self%in_time)
+  end function progress_name
 
   pure function purpose(analysis)
     type(analysis_t), intent(in) :: analysis
     character(len=:), allocatable :: purpose
 
-    if (analysis%kind /= analysis_static) then
+    if (any(mode_analyses == analysis%kind)) then
       purpose = plural(analysis%modes, "mode")
       if (analysis%kind == analysis_buckling) purpose = purpose//" of each sign"
+      return
+    else if (any(time_analyses == analysis%kind)) then
+      purpose = "to time "//to_text(analysis%end_time)//", steps of "//to_text(analysis%time_step)
+      if (.not. analysis%time_step > 0) then
+        purpose = "to time "//to_text(analysis%end_time)//", tolerance "// &
+                  to_text(analysis%tolerance)
+      end if
+      return
+    else if (analysis%kind == analysis_compliance) then
+      purpose = plural(size(analysis%node), "node")
       return
     end if
     purpose = plural(analysis%steps, "step")
@@ -231,13 +257,14 @@ contains
       summary%steps = step%step
       summary%iterations = summary%iterations + step%iterations
       summary%cutbacks = summary%cutbacks + step%cutbacks
-      summary%factor = step%factor
+      summary%factor = merge(step%time, step%factor, self%in_time)
       summary%largest = norm2(results%displacement(:, largest))
       summary%where = trim(self%node(largest))
       if (self%level == log_verbose) return
       tail = right(to_text(summary%largest, 5), 14)//" at node "//summary%where
     end associate
-    self%row = row(step%step, step%factor, step%iterations, 13, step%last)//tail
+    self%row = row(step%step, merge(step%time, step%factor, self%in_time), step%iterations, 13, &
+                   step%last)//tail
     if (step%step > 1 .and. modulo(step%step, self%every) > 0) return
     call print_row(self)
   end subroutine log_step
@@ -263,7 +290,7 @@ contains
       call say(self, line(i)%s)
     end do
     if (i <= size(line)) call say(self, "   ... and "//plural(size(line) - i + 1, "mode")//" more")
-    self%summary(self%analyses)%modes = modes_found%modes
+    self%summary(self%analyses)%found = modes_found%modes
   end subroutine log_modes
 
   subroutine finish_analysis(self, complete)
@@ -288,8 +315,10 @@ contains
         width = max(width, len(self%summary(i)%name))
       end do
       call say(self, "")
-      call say(self, "Analysis"//repeat(" ", width - 8)// &
-               "   steps   load factor   iterations   cut-backs   largest displacement")
+      call say(self, "Analysis"//repeat(" ", width - 8)//"   steps"// &
+               merge("  factor, time", "   load factor", &
+                     any(self%summary(:self%analyses)%in_time))// &
+               "   iterations   cut-backs   largest displacement")
       do i = 1, self%analyses
         call say(self, summary_row(self%summary(i), width))
       end do
@@ -303,9 +332,9 @@ contains
     integer, intent(in) :: width
     character(len=:), allocatable :: line
 
-    if (summary%modes >= 0) then
-      line = summary%name//repeat(" ", width - len(summary%name))//"   "//plural(summary%modes, &
-        "mode")
+    if (summary%found >= 0) then
+      line = summary%name//repeat(" ", width - len(summary%name))//"   "//plural(summary%found, &
+        summary%noun)
       if (.not. summary%complete) line = line//"   (not complete)"
       return
     end if
@@ -346,7 +375,8 @@ contains
     call system_clock(self%shown_at)
     self%shown = .true.
     line = self%summary(self%analyses)%name//": step "//to_text(iteration%step)//" of "// &
-           to_text(self%steps)//", load factor "//to_text(iteration%factor)//", iteration "// &
+           to_text(self%steps)//", "//trim(adjustl(progress_name(self)))//" "// &
+           to_text(iteration%factor)//", iteration "// &
            to_text(iteration%iteration)
     if (self%counted) line = line//", "//to_text((100*(iteration%step - 1))/self%steps)//" %"
     write (error_unit, "(a)", advance="no", iostat=status) erase//line

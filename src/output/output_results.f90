@@ -2,7 +2,8 @@
 module output_results
   use kinds, only: wp
   use errors, only: error_t, fail, exit_io
-  use model_data, only: model_t, analysis_t
+  use text, only: lower
+  use model_data, only: model_t, analysis_t, analysis_names
   use program_version, only: program_name, version
   use recorder, only: step_t, critical_t, critical_name
   use mode_results, only: modes_t
@@ -22,9 +23,6 @@ module output_results
   public :: result_file_t
 
   integer, parameter :: layout_version = 1
-  character(len=*), parameter :: kind_names(7) = ["static    ", "buckling  ", "eigen     ", &
-    "transient ", "kinematic ", "inverse   ", "compliance"]
-
   type :: result_file_t
     private
     type(hdf5_file_t) :: file
@@ -117,18 +115,20 @@ contains
     type(analysis_t), intent(in) :: analysis
     type(error_t), allocatable, intent(out) :: error
     character(len=12) :: digits
+    character(len=:), allocatable :: kind
 
+    kind = lower(trim(analysis_names(analysis%kind)))
     self%number = number
     self%row = 0
     self%critical_points = 0
     self%rule = new_rule(analysis, self%time)
     write (digits, "(i0.2)") number
-    self%group = "analysis/"//trim(digits)//"_"//trim(kind_names(analysis%kind))
+    self%group = "analysis/"//trim(digits)//"_"//kind
     if (analysis%name /= "") then
       self%group = "analysis/"//trim(digits)//"_"//link_name(trim(analysis%name))
     end if
     call self%file%group(self%group)
-    call self%file%set_text(self%group, "kind", trim(kind_names(analysis%kind)))
+    call self%file%set_text(self%group, "kind", kind)
     call self%file%set_number(self%group, "complete", 0)
     if (has_steps(analysis%kind)) then
       call self%table%begin(self%file, self%group, analysis, self%time)

@@ -2,12 +2,11 @@
 !> begins, so that files do not depend on the clock.
 module output_schedule
   use kinds, only: wp, i8
-  use model_data, only: analysis_t, analysis_static, analysis_buckling, analysis_eigen, &
-                        analysis_transient, analysis_kinematic, analysis_inverse, control_arc
+  use model_data, only: analysis_t, analysis_static, time_analyses, control_arc
   implicit none
   private
 
-  public :: in_time, has_steps, has_modes, expected_steps, block_size, drawing_rule_t, new_rule
+  public :: in_time, has_steps, expected_steps, block_size, drawing_rule_t, new_rule
 
   !> Steps and bytes written together in analyses in time, at most.
   integer, parameter :: most_together = 256
@@ -36,7 +35,7 @@ contains
   pure logical function in_time(kind)
     integer, intent(in) :: kind
 
-    in_time = any(kind == [analysis_transient, analysis_kinematic, analysis_inverse])
+    in_time = any(kind == time_analyses)
   end function in_time
 
   !> Whether they record steps.
@@ -45,13 +44,6 @@ contains
 
     has_steps = kind == analysis_static .or. in_time(kind)
   end function has_steps
-
-  !> Whether they find modes.
-  pure logical function has_modes(kind)
-    integer, intent(in) :: kind
-
-    has_modes = kind == analysis_buckling .or. kind == analysis_eigen
-  end function has_modes
 
   !> How many steps an analysis records, about; in time it goes from `start` [T].
   pure integer(i8) function expected_steps(analysis, start) result(steps)

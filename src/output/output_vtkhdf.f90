@@ -14,11 +14,11 @@ module output_vtkhdf
                   h5_integer_kind
   use kinds, only: wp, sp, i8
   use rotation, only: no_rotation
-  use model_data, only: model_t
+  use model_data, only: model_t, mode_analyses
   use system_results, only: results_t
   use mode_results, only: modes_t
   use output_hdf5, only: hdf5_file_t, about_t
-  use output_schedule, only: has_modes, in_time, expected_steps, drawn_intervals
+  use output_schedule, only: in_time, has_steps, expected_steps, drawn_intervals
   use output_tables, only: table_t
   use beam_mesh, only: mesh_t, new_mesh, line_cell
   use beam_drawing, only: posture_t, draw_motion, draw_mode, draw_forces, draw_stress
@@ -103,10 +103,13 @@ contains
 
     drawn_steps = 0
     do i = 1, size(model%analysis)
-      steps = expected_steps(model%analysis(i), 0.0_wp)
-      if (in_time(model%analysis(i)%kind)) steps = min(steps, int(drawn_intervals, i8))
-      if (has_modes(model%analysis(i)%kind)) steps = model%analysis(i)%modes
-      drawn_steps = drawn_steps + steps
+      associate (a => model%analysis(i))
+        steps = 0
+        if (has_steps(a%kind)) steps = expected_steps(a, 0.0_wp)
+        if (in_time(a%kind)) steps = min(steps, int(drawn_intervals, i8))
+        if (any(mode_analyses == a%kind)) steps = a%modes
+        drawn_steps = drawn_steps + steps
+      end associate
     end do
     drawn_steps = max(1_i8, drawn_steps)
   end function drawn_steps
