@@ -7,7 +7,7 @@ module output_log
   use model_data, only: model_t, analysis_t, analysis_buckling, analysis_compliance, &
                         analysis_names, time_analyses, mode_analyses, control_load, control_arc
   use program_version, only: program_name, version
-  use recorder, only: step_t, iteration_t
+  use recorder, only: step_t, iteration_t, compliance_line
   use mode_results, only: modes_t, mode_lines
   use system_results, only: results_t
   use output_progress, only: progress_t, seconds_since, time_line
@@ -57,6 +57,7 @@ module output_log
     procedure :: remark => log_remark
     procedure :: step => log_step
     procedure :: modes => log_modes
+    procedure :: compliance => log_compliance
     procedure :: finish => finish_analysis
     procedure :: close => close_log
   end type run_log_t
@@ -300,6 +301,18 @@ contains
     if (i <= size(line)) call say(self, "   ... and "//plural(size(line) - i + 1, "mode")//" more")
     self%summary(self%analyses)%found = modes_found%modes
   end subroutine log_modes
+
+  !> The nodes' compliances in their own directions.
+  subroutine log_compliance(self, node, matrix)
+    class(run_log_t), intent(inout) :: self
+    integer, intent(in) :: node(:)
+    real(wp), intent(in) :: matrix(:, :, :)
+    integer :: i
+
+    do i = 1, size(node)
+      call say(self, "    "//compliance_line("node "//trim(self%node(node(i))), matrix(:, :, i)))
+    end do
+  end subroutine log_compliance
 
   subroutine finish_analysis(self, complete)
     class(run_log_t), intent(inout) :: self

@@ -17,14 +17,13 @@ module output_schedule
 
   integer(i8), parameter :: guess = 1000, most_steps = 10_i8**8   !< steps, where they are adaptive
 
-  real(wp), parameter :: round_off = 1.0e-6_wp   !< of an interval
-
   !> Which recorded steps are drawn: the first of each interval of time, and the last.
   type :: drawing_rule_t
     private
     logical :: always = .true.
     real(wp) :: start = 0.0_wp, end = 0.0_wp, interval = 0.0_wp   !< [T]
-    real(wp) :: next = 0.0_wp                                     !< interval to be drawn
+    real(wp) :: slack = 1.0e-6_wp   !< of an interval: a state so little before it belongs to it
+    real(wp) :: next = 0.0_wp       !< interval to be drawn
   contains
     procedure :: draws
   end type drawing_rule_t
@@ -92,6 +91,7 @@ contains
     if (step > 0) then
       together = (expected_steps(analysis, start) + drawn_intervals - 1)/drawn_intervals
       rule%interval = together*step
+      rule%slack = 0.5_wp/together
     end if
   end function new_rule
 
@@ -103,8 +103,8 @@ contains
 
     draws = .true.
     if (self%always .or. .not. self%interval > 0) return
-    at = (time - self%start)/self%interval + round_off
-    draws = at >= self%next .or. time >= self%end - round_off*self%interval
+    at = (time - self%start)/self%interval + self%slack
+    draws = at >= self%next .or. time >= self%end
     self%next = max(self%next, real(floor(at, i8) + 1, wp))
   end function draws
 

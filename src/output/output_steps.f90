@@ -114,7 +114,7 @@ contains
 
     if (self%timed) then
       call start_whole(self, file, step_number, "step", &
-                       "number of the recorded step, from 1; 0: the start")
+                       "number of the recorded step; 0 is the start")
       call start_list(self, file, time, "time", "T", "time of the state")
       call start_list(self, file, time_step, "time_step", "T", "last step of the integration")
     else
@@ -223,11 +223,11 @@ contains
     if (self%joints == 0) return
     call file%group(self%group//"/joints")
     call start_table(self, file, joint_strain, "joints/strain", self%joints, joint_strains, &
-      about_t("1", axes, "lengths or angles, by the joint's type; 0 behind its last mode"))
+      about_t("1", axes, "angles or lengths L, by the joint's type; 0 behind its last mode"))
     call start_table(self, file, joint_stress, "joints/stress", self%joints, joint_strains, &
-      about_t("F", axes, "forces or, of angles, moments; 0 behind the last mode"))
+      about_t("FL", axes, "moments or, of lengths, forces F; 0 behind the last mode"))
     if (self%timed) call start_table(self, file, joint_rate, "joints/rate", self%joints, &
-      joint_strains, about_t("T-1", axes, "change of the strain with time"))
+      joint_strains, about_t("T-1", axes, "change of the strain with time, of lengths LT-1"))
   end subroutine start_joints
 
   subroutine start_convergence(self, file)
