@@ -5,6 +5,7 @@ module analysis_transient
   use errors, only: error_t, fail, exit_solve, exit_interrupt
   use text, only: to_text
   use model_data, only: model_t, analysis_t
+  use model_functions, only: next_jump
   use system_data, only: system_t
   use system_assembly, only: iterate_t
   use system_inertia, only: masses_t, new_masses
@@ -13,8 +14,9 @@ module analysis_transient
   use newton_method, only: newton_outcome_t, newton_converged
   use generalized_alpha, only: new_scheme, flow_t
   use dynamic_equilibrium, only: dynamics_t, new_dynamics, take_step, release_dynamics
-  use dynamic_start, only: start_motion
-  use energy_account, only: account_t, open_account, enter_step, motion_results
+  use dynamic_start, only: start_motion, restart_motion, part_of_step
+  use energy_account, only: account_t, open_account, reopen_account, enter_step, &
+                            motion_results
   use recorder, only: recorder_t, step_t, iteration_t
   implicit none
   private
@@ -161,7 +163,8 @@ contains
     type(instant_t) :: before
     real(wp), dimension(motion%system%coordinates) :: increment, predicted
     real(wp) :: length, ratio
-    logical :: last
+    real(wp) :: jump
+    logical :: last, jumps
 
     record%iterations = 0
     record%cutbacks = 0
@@ -171,11 +174,15 @@ contains
                   "written before is kept")
         return
       end if
-      last = time + 1.000001_wp*h >= goal
+      jump = first_jump(motion%system, time)
+      jumps = jump <= goal
+      jump = min(jump, goal)
+      last = time + 1.000001_wp*h >= jump
       length = h
-      if (last) length = goal - time
+      if (last) length = jump - time
+      jumps = jumps .and. last
       call remember(time, level, motion, before)
-      where (motion%system%timed) level = time + length
+      where (motion%system%timed) level = merge(nearest(jump, -1.0_wp), time + length, jumps)
       call take_step(motion, level, length, increment, predicted, outcome, error)
       record%iterations = record%iterations + outcome%last%iteration
       if (allocated(error)) return
@@ -197,7 +204,7 @@ contains
       end if
       call enter_step(motion, length, increment, account)
       time = time + length
-      if (last) time = goal
+      if (last) time = jump
       record%size = length
       record%last = outcome%last
       if (.not. analysis%time_step > 0) then
@@ -205,9 +212,32 @@ contains
         if (.not. last .or. ratio > safety**3) h = length
         h = h*min(most_growth, safety*max(ratio, 1.0e-3_wp)**(-1.0_wp/3))
       end if
-      if (last) return
+      if (jumps) then
+        where (motion%system%timed) level = time
+        call restart_motion(part_of_step*length, level, motion, error)
+        if (allocated(error)) return
+        call reopen_account(motion, account)
+      end if
+      if (time >= goal) return
+      if (analysis%time_step > 0) h = goal - time
     end do
   end subroutine reach
+
+  !> When a function of a timed pattern next jumps: the step ends there with the value before the
+  !> jump, and the next one starts with the one behind it.
+  pure real(wp) function first_jump(system, time) result(jump)
+    type(system_t), intent(in) :: system
+    real(wp), intent(in) :: time
+    integer :: i
+
+    jump = huge(jump)
+    do i = 1, size(system%load)
+      associate (load => system%load(i))
+        if (load%function == 0 .or. .not. system%timed(load%pattern)) cycle
+        jump = min(jump, next_jump(system%function(load%function), time))
+      end associate
+    end do
+  end function first_jump
 
   !> Estimate of the error of a step: a part of the difference between the increment and its
   !> prediction with the old acceleration, in lengths of the model and radians.

@@ -14,11 +14,11 @@ module dynamic_start
   implicit none
   private
 
-  public :: start_motion, constraint_accelerations
+  public :: start_motion, restart_motion, constraint_accelerations
 
   !> The accelerations come from the matrix of a step this part of the first one's length: the
   !> stiffness then weighs 1e-4 of what it does there.
-  real(wp), parameter :: part_of_step = 1.0e-2_wp
+  real(wp), parameter, public :: part_of_step = 1.0e-2_wp
 
 contains
 
@@ -32,14 +32,15 @@ contains
     type(error_t), allocatable, intent(out) :: error
 
     if (fresh .and. size(model%start) > 0) motion%flow%velocity = 0
-    call find_accelerations(motion, part_of_step*h, level, error)
+    call restart_motion(part_of_step*h, level, motion, error)
   end subroutine start_motion
 
   !> M a + C'mu = f - h - D'sigma, C a = rates of the targets - v'Hv; with the matrix of a very short
   !> step, whose stiffness gives coordinates without mass theirs. Left in flow and iterate.
-  subroutine find_accelerations(motion, h, level, error)
+  subroutine restart_motion(h, level, motion, error)
+    real(wp), intent(in) :: h          !< length of the very short step [T]
+    real(wp), intent(in) :: level(:)
     type(dynamics_t), intent(inout) :: motion
-    real(wp), intent(in) :: h, level(:)
     type(error_t), allocatable, intent(out) :: error
     real(wp) :: solution(motion%system%equations()), share, demand(size(motion%iterate%strain))
     integer :: i, k
@@ -90,7 +91,7 @@ contains
       end do
     end function has_mass
 
-  end subroutine find_accelerations
+  end subroutine restart_motion
 
   subroutine assemble_at_rest(motion, level)
     type(dynamics_t), intent(inout) :: motion

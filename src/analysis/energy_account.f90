@@ -10,7 +10,7 @@ module energy_account
   implicit none
   private
 
-  public :: account_t, open_account, enter_step, motion_results
+  public :: account_t, open_account, reopen_account, enter_step, motion_results
 
   !> Energies at the start, works since then [F L], and what the next step's trapezes begin with.
   type :: account_t
@@ -31,11 +31,19 @@ contains
     call momentum(motion%system, motion%masses, motion%iterate%state, motion%flow%velocity, &
                   kinetic, total)
     account%opening = kinetic + strain_energy(motion)
+    call reopen_account(motion, account)
+  end subroutine open_account
+
+  !> Begin new trapezes with the present forces, after they jumped.
+  subroutine reopen_account(motion, account)
+    type(dynamics_t), intent(in) :: motion
+    type(account_t), intent(inout) :: account
+
     account%external = motion%iterate%external
     account%stress = motion%iterate%stress
     account%target = motion%iterate%target
     account%power = lost_power(motion)
-  end subroutine open_account
+  end subroutine reopen_account
 
   !> Enter a step of length h with its increment of the coordinates.
   subroutine enter_step(motion, h, increment, account)

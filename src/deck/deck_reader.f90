@@ -95,9 +95,6 @@ contains
     call move_alloc(draft%model%analysis, model%analysis)
     call move_alloc(draft%model%setting, model%setting)
     call move_alloc(draft%model%imperfection, model%imperfection)
-    call move_alloc(draft%model%joint, model%joint)
-    call move_alloc(draft%model%mass, model%mass)
-    call move_alloc(draft%model%start, model%start)
     call move_alloc(draft%model%kept_node, model%kept_node)
     call move_alloc(draft%model%kept_member, model%kept_member)
     model%rayleigh = draft%model%rayleigh

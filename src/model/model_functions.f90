@@ -7,11 +7,27 @@ module model_functions
   implicit none
   private
 
-  public :: function_value, function_jet
+  public :: function_value, function_jet, next_jump
 
   real(wp), parameter :: pi = acos(-1.0_wp)
 
 contains
+
+  !> The first jump of a function behind s; huge if there is none.
+  pure function next_jump(f, s) result(jump)
+    type(function_t), intent(in) :: f
+    real(wp), intent(in) :: s
+    real(wp) :: jump
+    integer :: i
+
+    jump = huge(jump)
+    if (f%kind == function_step .and. f%parameter(1) > s) jump = f%parameter(1)
+    if (f%kind /= function_table) return
+    do i = size(f%table, 2) - 1, 1, -1
+      if (f%table(1, i) < f%table(1, i + 1) .or. f%table(1, i) <= s) cycle
+      jump = f%table(1, i)
+    end do
+  end function next_jump
 
   !> f(s), s being the load factor or time; NaN where a formula has no finite value.
   pure function function_value(f, s) result(value)

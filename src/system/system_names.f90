@@ -1,7 +1,7 @@
 !> Names of coordinates and strains, for messages.
 module system_names
   use text, only: to_text
-  use model_data, only: model_t
+  use model_data, only: model_t, joint_names
   use nodal_state, only: node_coordinates
   use system_data, only: system_t
   implicit none
@@ -74,9 +74,15 @@ contains
     mode = strain - system%first(e)
     if (e <= system%members) then
       name = member_name(model, e)//" mode "//to_text(mode)//" ("//trim(mode_name(mode))//")"
-    else
-      name = "the fixed rotation of "// &
+    else if (e <= system%members + system%joints) then
+      name = "element "//to_text(model%joint(e - system%members)%id)//" mode "//to_text(mode)// &
+             " of "//trim(joint_names(model%joint(e - system%members)%kind))
+    else if (any(system%holder(4:6, :) == e)) then
+      name = "the fixed or prescribed rotation of "// &
              node_name(model, (system%element(e)%e%coordinate(1) - 1)/node_coordinates + 1)
+    else
+      name = "the prescribed "// &
+             coordinate_name(model, system%element(e)%e%coordinate(mode))
     end if
   end function strain_name
 
