@@ -49,10 +49,9 @@ contains
 
     first_row = 0
     do i = 1, size(usage)
-      if (usage(i)%name == name) then
-        first_row = i
-        return
-      end if
+      if (usage(i)%name /= name) cycle
+      first_row = i
+      return
     end do
   end function first_row
 
@@ -137,7 +136,7 @@ contains
     given = 0
     do w = 2, card%words
       if (open_end) then
-        if (w - 1 > usage%lead .and. option_number(usage, card%word(w)) > 0) exit
+        if (w - 1 >= usage%lead .and. option_number(usage, card%word(w)) > 0) exit
       else if (w - 1 > usage%lead) then
         if (scan(card%text(card%first(w):card%first(w)), number_starts) == 0) exit
       else if (w - 1 > 1 .and. usage%literal /= w - 1) then
