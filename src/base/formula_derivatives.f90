@@ -213,15 +213,15 @@ contains
     type(jet_t), intent(in) :: a, b
     logical, intent(in) :: smaller
     type(jet_t), intent(inout) :: c
-    integer :: i, common
+    integer :: i, least
 
-    common = min(a%order, b%order)
-    do i = 0, common
+    least = min(a%order, b%order)
+    do i = 0, least
       if (a%d(i) < b%d(i) .or. a%d(i) > b%d(i)) exit
     end do
-    c%order = common
+    c%order = least
     c%d(1:2) = a%d(1:2)
-    if (i > common) return
+    if (i > least) return
     if (a%d(i) < b%d(i) .eqv. smaller) then
       c%order = a%order
     else

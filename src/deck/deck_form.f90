@@ -50,10 +50,9 @@ contains
 
     first_row = 0
     do i = 1, size(usage)
-      if (usage(i)%name == name) then
-        first_row = i
-        return
-      end if
+      if (usage(i)%name /= name) cycle
+      first_row = i
+      return
     end do
   end function first_row
 
@@ -168,7 +167,7 @@ contains
     given = 0
     do w = 2, card%words
       if (open_end) then
-        if (w - 1 > usage%lead .and. option_number(usage, card%word(w)) > 0) exit
+        if (w - 1 >= usage%lead .and. option_number(usage, card%word(w)) > 0) exit
       else if (w - 1 > usage%lead) then
         if (.not. (may_be_number(card, w) .or. (components .and. &
           component_number(card%word(w)) > 0))) exit

@@ -67,6 +67,7 @@ contains
     if (implies_eigen(draft, analysis(n))) then
       n = n + 1
       analysis(n)%kind = analysis_eigen
+      analysis(n)%pattern = patterns
     end if
     allocate (draft%model%pattern(patterns))
     draft%model%analysis = analysis(:n)
@@ -151,9 +152,8 @@ contains
     do i = 1, size(draft%model%analysis)
       if (i > 1) steps = steps//", then "
       steps = steps//describe_analysis(draft%model%analysis(i))
-      if (draft%model%analysis(i)%pattern == pattern(additional) .and. pattern(additional) > 0) then
-        steps = steps//" (DELXF)"
-      end if
+      if (draft%model%analysis(i)%kind == analysis_eigen .or. pattern(additional) == 0) cycle
+      if (draft%model%analysis(i)%pattern == pattern(additional)) steps = steps//" (DELXF)"
     end do
     if (any(draft%spacar_mode == [mode_check, mode_static])) then
       steps = "no analysis given: "//steps

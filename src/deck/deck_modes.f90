@@ -75,7 +75,7 @@ contains
         place_t(file=1), "--mode "//to_text(draft%spacar_mode)//" needs a TIMESTEP card", &
         "TIMESTEP tend n: n equal steps to the time tend")
     else if (draft%timestep%place%line > 0) then
-      call draft%report%add_note(draft%timestep%place, "TIMESTEP is not used: it belongs to "// &
+      call draft%report%add_note(draft%timestep%place, "TIMESTEP is ignored: it belongs to "// &
                                  "--mode 1 and 2 of a deck without analyses")
     end if
   end subroutine check_timestep

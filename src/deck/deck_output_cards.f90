@@ -110,8 +110,8 @@ contains
           node = .false.
           call mark_nodes(draft, record, node)
           do k = 1, size(draft%model%analysis)
-            if (same_place(draft%model%analysis(k)%place, record%place)) &
-              draft%model%analysis(k)%node = marked(node)
+            if (.not. same_place(draft%model%analysis(k)%place, record%place)) cycle
+            draft%model%analysis(k)%node = marked(node)
           end do
         case (record_kept_nodes)
           call mark_nodes(draft, record, kept_node)
