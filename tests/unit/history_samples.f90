@@ -19,10 +19,10 @@ module history_samples
   public :: get_history_model, write_history, record_steps, open_history, sample_value, yields
 
   !> What a number is of.
-  integer, parameter, public :: of_displacement = 1, of_euler = 2, of_warping = 3, of_reaction = 4, &
-    of_load = 5, of_strain = 6, of_stress = 7, of_force_p = 8, of_force_q = 9, of_places = 10, &
-    of_marker = 11, of_joint_strain = 12, of_joint_stress = 13, of_joint_rate = 14, &
-    of_velocity = 15, of_acceleration = 16, of_energy = 17, of_momentum = 18
+  integer, parameter, public :: of_displacement = 1, of_euler = 2, of_warping = 3, &
+    of_reaction = 4, of_load = 5, of_strain = 6, of_stress = 7, of_force_p = 8, of_force_q = 9, &
+    of_places = 10, of_marker = 11, of_joint_strain = 12, of_joint_stress = 13, &
+    of_joint_rate = 14, of_velocity = 15, of_acceleration = 16, of_energy = 17, of_momentum = 18
 
 contains
 

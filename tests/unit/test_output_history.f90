@@ -12,7 +12,10 @@ module test_output_history
   use output_tables, only: table_t
   use program_runs, only: outcome_t, run_spar, scratch, same_bytes, file_there
   use result_reader, only: get_reals, get_integers, get_numbers
-  use history_samples
+  use history_samples, only: get_history_model, write_history, record_steps, open_history, &
+    sample_value, yields, of_displacement, of_euler, of_warping, of_reaction, of_load, of_strain, &
+    of_stress, of_force_p, of_force_q, of_places, of_marker, of_joint_strain, of_joint_stress, &
+    of_joint_rate, of_velocity, of_acceleration, of_energy, of_momentum
   implicit none
   private
 
@@ -191,11 +194,11 @@ contains
     call expect(all(whole == [2, 1, 3]), "row, id, part of element 1.3")
     call get_integers(path, group//"elements/place", whole, extents)
     call expect(all(whole == [(i, i=12, 17)]), "rows of the places")
-    call get_reals_of_drawing(path, 10)
+    call expect_drawing(path, 10)
   end subroutine test_choice
 
   !> The drawing has all elements: three beams of three pieces with eight corners, the truss.
-  subroutine get_reals_of_drawing(path, drawn)
+  subroutine expect_drawing(path, drawn)
     character(len=*), intent(in) :: path
     integer, intent(in) :: drawn
     real(wp), allocatable :: motion(:)
@@ -203,7 +206,7 @@ contains
 
     call get_reals(path, "VTKHDF/PointData/displacement", motion, extents)
     call expect(extents(1) == drawn*(3*4*8 + 2), "all points are drawn")
-  end subroutine get_reals_of_drawing
+  end subroutine expect_drawing
 
   subroutine test_interrupted()
     type(model_t) :: model
@@ -437,8 +440,10 @@ contains
   subroutine test_progress()
     call expect(time_line(1.0_wp, 2.0_wp, 5.0_wp, 600, 30.0_wp) == &
                 "time 2 of 5, 25 %, 20 steps per second, 90 s to go", "a quarter")
-    call expect(index(time_line(0.0_wp, 0.1_wp, 1.0_wp, 1, 60.0_wp), "9:00 min to go") > 0, "minutes")
-    call expect(index(time_line(0.0_wp, 0.1_wp, 1.0_wp, 1, 1000.0_wp), "2:30 h to go") > 0, "hours")
+    call expect(index(time_line(0.0_wp, 0.1_wp, 1.0_wp, 1, 60.0_wp), "9:00 min to go") > 0, &
+                "minutes")
+    call expect(index(time_line(0.0_wp, 0.1_wp, 1.0_wp, 1, 1000.0_wp), "2:30 h to go") > 0, &
+                "hours")
     call expect(time_line(0.0_wp, 0.0_wp, 1.0_wp, 0, 1.0_wp) == "time 0 of 1, 0 %", "not yet")
   end subroutine test_progress
 

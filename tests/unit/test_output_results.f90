@@ -53,8 +53,8 @@ contains
     call expect(described(3) == described(1) + 15, "a drawing nine more, its stresses five and one")
   end subroutine test_documentation
 
-  !> The same for a motion in time, where OUTPUT chooses, and COMPLIANCE; the rows of STATIC go for it
-  !> too.
+  !> The same for a motion in time, where OUTPUT chooses, and COMPLIANCE; the rows of STATIC go for
+  !> it too.
   subroutine test_history()
     type(model_t) :: model
     character(len=:), allocatable :: page, path
