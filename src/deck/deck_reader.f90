@@ -81,6 +81,9 @@ contains
     call move_alloc(draft%model%material, model%material)
     call move_alloc(draft%model%section, model%section)
     call move_alloc(draft%model%member, model%member)
+    call move_alloc(draft%model%joint, model%joint)
+    call move_alloc(draft%model%mass, model%mass)
+    call move_alloc(draft%model%start, model%start)
     call move_alloc(draft%model%marker, model%marker)
     call move_alloc(draft%model%point, model%point)
     call move_alloc(draft%model%function, model%function)
@@ -88,9 +91,6 @@ contains
     call move_alloc(draft%model%analysis, model%analysis)
     call move_alloc(draft%model%setting, model%setting)
     call move_alloc(draft%model%imperfection, model%imperfection)
-    call move_alloc(draft%model%joint, model%joint)
-    call move_alloc(draft%model%mass, model%mass)
-    call move_alloc(draft%model%start, model%start)
   end subroutine move_model
 
   subroutine compile(table)
