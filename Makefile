@@ -151,10 +151,11 @@ validation: $(B)/spar $(VENV)/plots  ## run the validation problems, write docs/
 check-validation: $(B)/spar $(VENV)/ready  ## the same runs against the numbers of that page
 	@SPAR_PROGRAM=$(B)/spar $(VENV)/bin/python3 tools/validation.py --check
 
-bench: $(B)/spar $(B)/bench_tangent  ## measure speed and memory (tools/bench)
-	@SPAR_PROGRAM=$(B)/spar BENCH_TANGENT=$(B)/bench_tangent tools/bench
+bench: $(B)/spar $(B)/bench_tangent $(B)/bench_recorder  ## measure speed and memory (tools/bench)
+	@SPAR_PROGRAM=$(B)/spar BENCH_TANGENT=$(B)/bench_tangent \
+	BENCH_RECORDER=$(B)/bench_recorder tools/bench
 
-$(B)/bench_tangent: tests/bench/bench_tangent.f90 $(B)/libspar.a $(B)/link
+$(B)/bench_%: tests/bench/bench_%.f90 $(B)/libspar.a $(B)/link
 	$(Q)$(FC) $(FFLAGS) $(CONFIG_FLAGS) -I $(B) -o $@ $< $(B)/libspar.a $(LIBS) 2>/dev/null
 
 install: DIR = $(DESTDIR)$(PREFIX)

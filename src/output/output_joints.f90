@@ -70,8 +70,8 @@ contains
                     "name, as in /model/materials; empty: none"))
   end subroutine write_names
 
-  !> What ESTIFF, EDAMP, ESIG and EM cards gave, if there are any. What a mode's stiffness is counted
-  !> in depends on the joint's type: the dimension is that of a mode that is an angle.
+  !> What ESTIFF, EDAMP, ESIG and EM cards gave, if there are any. The dimension of a mode depends
+  !> on the joint's type: the attribute is that of an angle.
   subroutine write_cards(file, joint)
     type(hdf5_file_t), intent(inout) :: file
     type(joint_t), intent(in) :: joint(:)

@@ -43,7 +43,8 @@ contains
     real(wp), intent(in) :: pause            !< between two lines [s]
 
     due = self%wanted
-    if (due) due = seconds_since(self%shown_at) >= merge(pause, patience, self%shown_at > self%start)
+    if (.not. due) return
+    due = seconds_since(self%shown_at) >= merge(pause, patience, self%shown_at > self%start)
   end function due
 
   subroutine show(self, line)

@@ -112,13 +112,11 @@ contains
     type(step_tables_t), intent(inout) :: self
     type(hdf5_file_t), intent(inout) :: file
 
+    call start_whole(self, file, step_number, "step", "number of the recorded step")
     if (self%timed) then
-      call start_whole(self, file, step_number, "step", &
-                       "number of the recorded step; 0 is the start")
       call start_list(self, file, time, "time", "T", "time of the state")
       call start_list(self, file, time_step, "time_step", "T", "last step of the integration")
     else
-      call start_whole(self, file, step_number, "step", "number of the recorded step, from 1")
       call start_list(self, file, load_factor, "load_factor", "1", "factor of the load pattern")
     end if
   end subroutine start_steps
