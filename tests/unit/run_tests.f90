@@ -9,6 +9,7 @@ program run_tests
   use test_section_check, only: run_section_check_tests
   use test_deck_form, only: run_deck_form_tests
   use test_deck_model, only: run_deck_model_tests
+  use test_deck_joints, only: run_deck_joints_tests
   use test_deck_wrong, only: run_deck_wrong_tests
   use test_model_axes, only: run_model_axes_tests
   use test_element_beamw, only: run_element_beamw_tests
@@ -42,6 +43,7 @@ program run_tests
   call run_section_check_tests()
   call run_deck_form_tests()
   call run_deck_model_tests()
+  call run_deck_joints_tests()
   call run_deck_wrong_tests()
   call run_model_axes_tests()
   call run_element_beamw_tests()
