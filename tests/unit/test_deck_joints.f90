@@ -247,18 +247,19 @@ contains
 
     call read_sound(pair//"BEAMW 3 2 32 33 3 42 43|FUNCTION g RAMP 0 1|INPUTX 3 X 5 2|"// &
                     "INPUTX 2:3 Z -0.5 0 3|INPUTX 2 RY 0.25|INPUTX 33 1 0.125|INPUTX 42 3 0.5|"// &
-                    "INPUTX 32 RZ -0.5|INPUTX 3 Y 2 FUNCTION g|INPUTX 43 w 0.75", model)
+                    "INPUTX 32 RZ -0.5|INPUTX 3 Y 2 FUNCTION g|INPUTX 43 w 0.75|"// &
+                    "NODE 7 0 0 2.5|BEAM 7 3 7|INPUTX 7 Z 3", model)
     call expect(size(model%pattern) == 1, "one pattern")
     if (size(model%pattern) /= 1) return
     associate (m => model%pattern(1)%motion)
-      call expect(size(m) == 9, "nine motions")
-      if (size(m) /= 9) return
-      call expect(all(m%component == [1, 3, 3, 5, 7, 5, 6, 2, 7]), "components")
-      call expect(all(model%node(m%node)%id == [3, 2, 3, 2, 33, 42, 32, 3, 43]), "nodes")
+      call expect(size(m) == 10, "ten motions")
+      if (size(m) /= 10) return
+      call expect(all(m%component == [1, 3, 3, 5, 7, 5, 6, 2, 7, 3]), "components")
+      call expect(all(model%node(m%node)%id == [3, 2, 3, 2, 33, 42, 32, 3, 43, 7]), "nodes")
       call expect(.not. any(m%euler .neqv. [.false., .false., .false., .false., .false., .true., &
-                                            .false., .false., .false.]), "an Euler parameter")
+                                            .false., .false., .false., .false.]), "an Euler parameter")
       call expect_close(m%value, [1.0_wp, -0.5_wp, -0.5_wp, 0.25_wp, 0.125_wp, 0.5_wp, -0.5_wp, &
-                                  2.0_wp, 0.75_wp], 0.0_wp, "less the position, not with FUNCTION")
+                                  2.0_wp, 0.75_wp, 0.5_wp], 0.0_wp, "less the position, not with FUNCTION")
       call expect_close(m(1)%velocity, 2.0_wp, 0.0_wp, "velocity")
       call expect_close(m(3)%acceleration, 3.0_wp, 0.0_wp, "acceleration")
       call expect(all(m%member == 0) .and. all(m%joint == 0), "of no element")
