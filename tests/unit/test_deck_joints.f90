@@ -257,9 +257,9 @@ contains
       call expect(all(m%component == [1, 3, 3, 5, 7, 5, 6, 2, 7, 3]), "components")
       call expect(all(model%node(m%node)%id == [3, 2, 3, 2, 33, 42, 32, 3, 43, 7]), "nodes")
       call expect(.not. any(m%euler .neqv. [.false., .false., .false., .false., .false., .true., &
-                                            .false., .false., .false., .false.]), "an Euler parameter")
+                                            .false., .false., .false., .false.]), "by number")
       call expect_close(m%value, [1.0_wp, -0.5_wp, -0.5_wp, 0.25_wp, 0.125_wp, 0.5_wp, -0.5_wp, &
-                                  2.0_wp, 0.75_wp, 0.5_wp], 0.0_wp, "less the position, not with FUNCTION")
+                                  2.0_wp, 0.75_wp, 0.5_wp], 0.0_wp, "less the position")
       call expect_close(m(1)%velocity, 2.0_wp, 0.0_wp, "velocity")
       call expect_close(m(3)%acceleration, 3.0_wp, 0.0_wp, "acceleration")
       call expect(all(m%member == 0) .and. all(m%joint == 0), "of no element")
