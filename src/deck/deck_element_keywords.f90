@@ -119,8 +119,8 @@ contains
       keyword_t("XM", "model", "nodes:nodes m:M | nodes:nodes Ixx:M*L^2 Ixy:M*L^2 Ixz:M*L^2 "// &
         "Iyy:M*L^2 Iyz:M*L^2 Izz:M*L^2 | nodes:nodes m:M Ixx:M*L^2 Ixy:M*L^2 Ixz:M*L^2 "// &
         "Iyy:M*L^2 Iyz:M*L^2 Izz:M*L^2", "", &
-        "gives mass, inertias or both to nodes; inertias are about the node, in global axes at "// &
-        "the start, and turn with it. Several cards of a node add up", &
+        "gives mass, inertias or both to nodes; inertias are entries of the matrix about the "// &
+        "node, in global axes at the start, and turn with it. Several cards of a node add up", &
         "XM 2 5|XM 3 5 0.2 0 0 0.2 0 0.3", "XM", read_xm)]
   end function mode_keywords
 

@@ -288,7 +288,7 @@ contains
         load%moment = value(4:6)
         if (record%values == 7) load%bimoment = value(7)
       end select
-      if (ok .and. record%follower .and. .not. node%exists(2)) then
+      if (ok .and. record%follower .and. record%values > 1 .and. .not. node%exists(2)) then
         ok = .false.
         if (.not. (choice%loose(i) .or. draft%elements_incomplete)) call draft%report%add_error( &
           choice%place(i), "FOLLOWER turns with the rotation of "//name//", which it does not have")

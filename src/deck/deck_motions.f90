@@ -251,11 +251,12 @@ contains
       associate (earlier => draft%model%pattern(q)%motion(targets%motion(n)))
         call find_factor(draft, q, factor, known)
         problem = ""
-        if (.not. known) problem = "the STATIC of its last motion does not end at a known factor"
-        if (earlier%euler .neqv. motion%euler) problem = "it was given as "// &
-          trim(merge("an Euler parameter", "an angle          ", earlier%euler))//" before"
-        if (problem /= "") call draft%report%add_error(motion%place, name// &
-          " cannot be prescribed as a whole: "//problem, "DELINPX and DELINPE give increments")
+        if (.not. known) problem = "what its earlier motion has added is not known, since that "// &
+                                   "STATIC does not end at a given factor"
+        if (earlier%euler .neqv. motion%euler) problem = "an earlier motion gives "// &
+          trim(merge("the Euler parameter", "the angle          ", earlier%euler))
+        if (problem /= "") call draft%report%add_error(motion%place, name//": "//problem, &
+                                                       "DELINPX and DELINPE give increments")
         if (earlier%function > 0) factor = function_value( &
           draft%model%function(earlier%function), factor)
         motion%value = motion%value - factor*earlier%value

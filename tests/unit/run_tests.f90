@@ -9,6 +9,7 @@ program run_tests
   use test_section_check, only: run_section_check_tests
   use test_deck_form, only: run_deck_form_tests
   use test_deck_model, only: run_deck_model_tests
+  use test_deck_joints, only: run_deck_joints_tests
   use test_deck_wrong, only: run_deck_wrong_tests
   use test_formula_derivatives, only: run_formula_derivatives_tests
   use test_deck_analyses, only: run_deck_analyses_tests
@@ -49,6 +50,7 @@ program run_tests
   call run_section_check_tests()
   call run_deck_form_tests()
   call run_deck_model_tests()
+  call run_deck_joints_tests()
   call run_deck_wrong_tests()
   call run_formula_derivatives_tests()
   call run_deck_analyses_tests()

@@ -114,7 +114,7 @@ contains
     case ("EM")
       cards = bare//"ESTIFF 1 1 1 1 1 0 0 1|"
     case ("TITLE", "SET", "END", "HALT", "VISUALIZATION", "OUTLEVEL", "NODE", "X", "MATERIAL", &
-          "SECTION", "POINT", "PLATE", "BEAMW", "FUNCTION")
+          "SECTION", "POINT", "PLATE", "BEAMW", "BEAM", "FUNCTION")
       cards = small
     case default
       cards = large
