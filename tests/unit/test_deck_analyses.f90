@@ -34,7 +34,6 @@ contains
     call run("analyses: modes without loads, without TIMESTEP", bare_modes)
     call run("analyses: SPACAR's cards that are ignored", ignored)
     call run("analyses: spar run --mode", mode_option)
-    call run("analyses: not yet available", unavailable)
   end subroutine run_deck_analyses_tests
 
   subroutine transient()
@@ -316,19 +315,5 @@ contains
     call expect_run(plain, "--mode", 2, "needs a value")
     call expect_run(plain, "--mode 7 --mode 8", 2, "given twice")
   end subroutine mode_option
-
-  !> Until these analyses exist: the run ends with what is missing, and leaves no file.
-  subroutine unavailable()
-    character(len=*), parameter :: cards(4) = [character(len=24) :: "TRANSIENT TEND 1 STEP 1", &
-      "KINEMATIC TEND 1 STEP 1", "INVERSE TEND 1 STEP 1", "COMPLIANCE 2"]
-    integer :: i
-
-    call execute_command_line("rm -f "//scratch("mode.h5"))
-    do i = 1, size(cards)
-      call expect_run(held//force//trim(cards(i)), "", 3, &
-                      cards(i)(:index(cards(i), " "))//"is not available yet")
-      call expect(.not. file_there(scratch("mode.h5")), "no file")
-    end do
-  end subroutine unavailable
 
 end module test_deck_analyses
