@@ -13,7 +13,7 @@ module dynamic_equilibrium
   use system_build, only: find_system_pattern
   use system_assembly, only: iterate_t, new_iterate, assemble, right_hand_side, advance
   use system_constraints, only: coordinate_scale
-  use system_dynamics, only: shares_t, add_inertia
+  use system_dynamics, only: shares_t, add_inertia, inertia_forces
   use system_inertia, only: masses_t
   use generalized_alpha, only: scheme_t, flow_t, predict, correct, inverse_tangent
   use newton_method, only: newton_outcome_t, newton_converged, newton_slow, newton_diverged, &
@@ -119,6 +119,7 @@ contains
     before = huge(before)
     do
       outcome%last%iteration = outcome%last%iteration + 1
+      self%iterate%keeps_matrix = .not. fresh
       call assemble_motion(self, level, increment, next)
       outcome%last%constraint = largest_gap(self)/self%system%length
       if (self%iterate%invalid > 0) then
@@ -146,7 +147,9 @@ contains
       outcome%status = newton_slow
       return
     end do
+    self%iterate%keeps_matrix = .true.
     call assemble_motion(self, level, increment, next)
+    self%iterate%keeps_matrix = .false.
     outcome%last%constraint = largest_gap(self)/self%system%length
     self%flow = next
   end subroutine take_step
@@ -189,6 +192,12 @@ contains
     self%iterate%velocity = next%velocity
     call assemble(self%system, level, self%iterate)
     if (self%iterate%invalid > 0) return
+    if (self%iterate%keeps_matrix) then
+      call inertia_forces(self%masses, self%iterate%state, next%velocity, &
+                          next%acceleration + self%mass_damping*next%velocity, &
+                          self%iterate%inertial)
+      return
+    end if
     call add_inertia(self%system, self%masses, self%shares, self%iterate%state, next%velocity, &
                      next%acceleration + self%mass_damping*next%velocity, self%iterate%inertial, &
                      self%iterate%values)

@@ -33,6 +33,7 @@ module system_assembly
     real(wp), allocatable :: velocity(:), rate(:), viscous(:)
     real(wp) :: velocity_share = 0.0_wp     !< change of the velocities with the coordinates [1/T]
     real(wp), allocatable :: inertial(:)    !< by coordinate: inertia forces, of a motion in time
+    logical :: keeps_matrix = .false.       !< the next assembly leaves `values` and `noise` alone
     integer :: invalid = 0                  !< an element rotated beyond its range; 0: none
   end type iterate_t
 
@@ -69,8 +70,10 @@ contains
     iterate%internal = 0
     iterate%constraint = 0
     iterate%external = 0
-    iterate%noise = 0
-    iterate%values = 0
+    if (.not. iterate%keeps_matrix) then
+      iterate%noise = 0
+      iterate%values = 0
+    end if
     iterate%invalid = 0
     do e = 1, size(system%element)
       associate (jacobian => iterate%jacobian(system%jacobian(e) + 1:system%jacobian(e + 1)))
@@ -108,23 +111,14 @@ contains
     if (allocated(iterate%velocity)) then
       call add_damping(element, first, jacobian, iterate, law)
     end if
-    stress_rate = matmul(law, jacobian)
-    do j = 1, element%coordinates
-      do i = 1, j
-        tangent(i, j) = tangent(i, j) + dot_product(jacobian(:, i), stress_rate(:, j))
-        tangent(j, i) = tangent(i, j)
-      end do
-    end do
     iterate%strain(first:last) = strain
     iterate%elastic(first:last) = elastic
     if (element%damped .and. allocated(iterate%velocity)) then
       elastic = elastic + iterate%viscous(first:last)
     end if
-    call coordinate_sizes(element, iterate%state, size_of)
     associate (at => element%coordinate)
       do j = 1, element%coordinates
         iterate%internal(at(j)) = iterate%internal(at(j)) + dot_product(elastic, jacobian(:, j))
-        iterate%noise(at(j)) = iterate%noise(at(j)) + dot_product(abs(tangent(:, j)), size_of)
       end do
       do i = 1, element%strains
         if (system%multiplier(first + i - 1) == 0) cycle
@@ -132,6 +126,20 @@ contains
                                  + iterate%stress(first + i - 1)*jacobian(i, :)
       end do
     end associate
+    if (iterate%keeps_matrix) return
+    stress_rate = matmul(law, jacobian)
+    do j = 1, element%coordinates
+      do i = 1, j
+        tangent(i, j) = tangent(i, j) + dot_product(jacobian(:, i), stress_rate(:, j))
+        tangent(j, i) = tangent(i, j)
+      end do
+    end do
+    call coordinate_sizes(element, iterate%state, size_of)
+    do j = 1, element%coordinates
+      associate (noise => iterate%noise(element%coordinate(j)))
+        noise = noise + dot_product(abs(tangent(:, j)), size_of)
+      end associate
+    end do
     call add_element(system, e, element, tangent, jacobian, iterate%values)
   end subroutine assemble_element
 
