@@ -35,8 +35,8 @@ contains
     call restart_motion(part_of_step*h, level, motion, error)
   end subroutine start_motion
 
-  !> M a + C'mu = f - h - D'sigma, C a = rates of the targets - v'Hv; with the matrix of a very short
-  !> step, whose stiffness gives coordinates without mass theirs. Left in flow and iterate.
+  !> M a + C'mu = f - h - D'sigma, C a = rates of the targets - v'Hv; with the matrix of a very
+  !> short step, whose stiffness gives coordinates without mass theirs. Left in flow and iterate.
   subroutine restart_motion(h, level, motion, error)
     real(wp), intent(in) :: h          !< length of the very short step [T]
     real(wp), intent(in) :: level(:)

@@ -242,8 +242,9 @@ contains
       scale(system%unknowns + 1:) = maxval(abs(solution(system%unknowns + 1:)))
     end if
     point%kind = critical_bifurcation
-    if (abs(dot_product(direction, solution)) > orthogonal*norm2(direction*scale)) &
+    if (abs(dot_product(direction, solution)) > orthogonal*norm2(direction*scale)) then
       point%kind = critical_limit
+    end if
     point%factor = level(pattern)
     mode = [(mode(k)*coordinate_scale(system, k), k=1, system%coordinates)]
     allocate (point%mode(node_coordinates, system%nodes))

@@ -24,7 +24,7 @@ program main
       import :: c_int, c_size_t, c_char
       implicit none
       integer(c_int), value :: file
-      character(kind=c_char), intent(in) :: text(*)
+      character(kind=c_char), intent(in) :: text(80)
       integer(c_size_t), value :: length
     end function c_write
 
@@ -47,11 +47,11 @@ contains
 
   !> The Fortran library ends the process by itself, with status 1, where memory runs out.
   subroutine end_early() bind(c)
-    character(len=*), parameter :: sorry = &
+    character(len=80), parameter :: sorry = &
       "the program could not go on, most likely for lack of memory"//new_line("a")
 
     if (done) return
-    if (c_write(2_c_int, sorry, len(sorry, c_size_t)) < 0) continue
+    if (c_write(2_c_int, sorry, len_trim(sorry, c_size_t)) < 0) continue
     call c_exit_now(int(exit_io, c_int))
   end subroutine end_early
 

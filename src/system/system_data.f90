@@ -89,7 +89,7 @@ module system_data
     type(function_t), allocatable :: function(:)
     type(drive_t), allocatable :: drive(:)
     type(turn_t), allocatable :: turn(:)
-    integer, allocatable :: holder(:, :)  !< (7, nodes) element whose strain is that coordinate; or 0
+    integer, allocatable :: holder(:, :)  !< (7, nodes) element whose strain it is; 0: none
     !> By pattern: its level is the time; cards without a function act in full.
     logical, allocatable :: timed(:)
     type(constants_slot_t), allocatable :: constants(:)
