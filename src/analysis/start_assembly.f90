@@ -35,10 +35,14 @@ module start_assembly
   !> An iteration moves by this at most, lengths or radians; after `most_settling` iterations the
   !> place need not be the nearest one any more.
   real(wp), parameter :: farthest = 1.0_wp, settled = 1.0e-9_wp
-  integer, parameter :: most_settling = 60, most_iterations = 100, most_halvings = 10
+  integer, parameter :: most_settling = 60, most_iterations = 200, most_halvings = 10
 
   !> Gaps below this may grow for the sake of a nearer place.
   real(wp), parameter :: small_gap = 1.0e-3_wp
+
+  !> Where the gaps shrink less than this the constraints are made compliant (Levenberg, Marquardt),
+  !> the more the longer that lasts: at the last only gaps as small as may be are sought.
+  real(wp), parameter :: slow = 1.0e-3_wp, least_compliance = 1.0e-4_wp, most_compliance = 1.0e3_wp
 
   !> What is iterated.
   type :: closing_t
@@ -47,7 +51,9 @@ module start_assembly
     type(solver_t) :: solver
     real(wp), allocatable :: level(:)
     real(wp), allocatable :: gap(:)      !< by strain, in lengths of the model or radians
-    real(wp), allocatable :: scale(:)    !< by coordinate
+    real(wp), allocatable :: size_of(:)  !< by strain: what counts as one
+    real(wp), allocatable :: scale(:)    !< by coordinate: what counts as one
+    real(wp) :: compliance = 0.0_wp      !< of the constraints, against that of the springs
     integer :: givens = 0                !< the last strains driven are those of STARTX
   end type closing_t
 
@@ -145,7 +151,8 @@ contains
     end do
   end function row_size
 
-  !> Newton with steps as short as possible, cut where they widen the gaps.
+  !> Newton with steps as short as possible, cut where they widen the gaps; when the place is the
+  !> nearest one, what pulled it there is left out, so that it does not strain what is stiff.
   subroutine close_gaps(model, system, level, given, state, error)
     type(model_t), intent(in) :: model
     type(system_t), intent(in) :: system
@@ -155,16 +162,24 @@ contains
     type(error_t), allocatable, intent(out) :: error
     type(closing_t) :: self
     type(model_t) :: targets
-    real(wp) :: moved
+    real(wp) :: moved, before
     integer :: i
-    logical :: stuck
+    logical :: pulled
 
     call new_closing(model, system, level, given, state, targets, self, error)
+    pulled = .true.
     do i = 1, most_iterations
       if (allocated(error)) exit
-      call take_step(self, state, i <= most_settling, moved, stuck, error)
-      if (allocated(error) .or. stuck) exit
-      if (maxval(self%gap) <= no_gap .and. (moved <= settled .or. i > most_settling)) exit
+      before = norm2(self%gap)
+      call take_step(self, state, pulled, moved, error)
+      if (allocated(error)) exit
+      if (maxval(self%gap) <= no_gap .and. (moved <= settled .or. i > most_settling)) then
+        if (.not. pulled) exit
+        pulled = .false.
+      end if
+      if (i == most_settling) pulled = .false.
+      call adapt_compliance(self, before)
+      if (self%compliance > most_compliance) exit
     end do
     if (.not. allocated(error)) then
       if (maxval(self%gap) <= closed_gap) then
@@ -207,7 +222,7 @@ contains
       call self%solver%prepare(self%system%equations(), pattern%row, pattern%column, &
                                pattern%symmetric, error)
     end associate
-    allocate (self%gap(size(self%system%multiplier)))
+    allocate (self%gap(size(self%system%multiplier)), self%size_of(size(self%system%multiplier)))
     call evaluate(self)
   end subroutine new_closing
 
@@ -262,26 +277,38 @@ contains
     integer, intent(in) :: first, last
 
     associate (iterate => self%iterate, gap => self%gap(first:last))
-      gap = abs(iterate%strain(first:last) - iterate%target(first:last)) &
-            /row_size(self%system, element, jacobian)
+      self%size_of(first:last) = row_size(self%system, element, jacobian)
+      gap = abs(iterate%strain(first:last) - iterate%target(first:last))/self%size_of(first:last)
       where (.not. element%fixed) gap = 0
     end associate
   end subroutine find_gaps
 
-  !> One iteration from where `self` is evaluated; `stuck`: no step makes the gaps smaller.
-  subroutine take_step(self, given, settling, moved, stuck, error)
+  pure subroutine adapt_compliance(self, before)
+    type(closing_t), intent(inout) :: self
+    real(wp), intent(in) :: before  !< norm of the gaps before the last step
+
+    if (maxval(self%gap) > small_gap .and. norm2(self%gap) > (1 - slow)*before) then
+      self%compliance = max(least_compliance, 10*self%compliance)
+    else
+      self%compliance = self%compliance/10
+      if (self%compliance < least_compliance) self%compliance = 0
+    end if
+  end subroutine adapt_compliance
+
+  !> One iteration from where `self` is evaluated; none if no step makes the gaps smaller.
+  subroutine take_step(self, given, pulled, moved, error)
     type(closing_t), intent(inout) :: self
     type(state_t), intent(in) :: given     !< where the model was drawn
-    logical, intent(in) :: settling
+    logical, intent(in) :: pulled          !< towards it
     real(wp), intent(out) :: moved         !< lengths or radians
-    logical, intent(out) :: stuck
     type(error_t), allocatable, intent(out) :: error
     real(wp) :: solution(self%system%equations()), increment(self%system%coordinates)
     real(wp) :: share, before
     type(iterate_t) :: start
     integer :: attempt
+    logical :: worse
 
-    call find_increment(self, given, settling, solution, error)
+    call find_increment(self, given, pulled, solution, error)
     if (allocated(error)) return
     start = self%iterate
     before = norm2(self%gap)
@@ -293,23 +320,24 @@ contains
       end if
       call advance(self%system, solution, share, self%iterate, increment)
       call evaluate(self)
-      stuck = self%iterate%invalid > 0 .or. &
-              (maxval(self%gap) > small_gap .and. norm2(self%gap) > (1 - 1.0e-3_wp*share)*before)
       moved = maxval(abs(increment)/self%scale)
-      if (.not. stuck) return
+      worse = self%iterate%invalid > 0 .or. &
+              (maxval(self%gap) > small_gap .and. .not. norm2(self%gap) < before)
+      if (.not. worse) return
     end do
     self%iterate = start
     call evaluate(self)
   end subroutine take_step
 
   !> Stiffness and a soft spring to where each coordinate was drawn, in every one of them.
-  subroutine find_increment(self, given, settling, solution, error)
+  subroutine find_increment(self, given, pulled, solution, error)
     type(closing_t), intent(inout) :: self
     type(state_t), intent(in) :: given
-    logical, intent(in) :: settling
+    logical, intent(in) :: pulled
     real(wp), intent(out) :: solution(:)
     type(error_t), allocatable, intent(out) :: error
     real(wp) :: spring(self%system%unknowns), away(self%system%coordinates), stiffest
+    real(wp) :: diagonal(self%system%equations())
     integer :: i, k
 
     stiffest = 0
@@ -323,10 +351,13 @@ contains
         if (i /= pattern%column(k) .or. i > size(spring)) cycle
         stiffest = max(stiffest, values(k)/spring(i))
       end do
-      spring = spring*merge(softness*stiffest, 1.0_wp, stiffest > 0)
+      stiffest = merge(softness*stiffest, 1.0_wp, stiffest > 0)
+      spring = stiffest*spring
+      diagonal = [spring, -self%compliance/stiffest &
+                  *pack(self%size_of, self%system%multiplier > 0)**2]
       do k = 1, size(values)
         i = pattern%row(k)
-        if (i == pattern%column(k) .and. i <= size(spring)) values(k) = values(k) + spring(i)
+        if (i == pattern%column(k)) values(k) = values(k) + diagonal(i)
       end do
     end associate
     solution = right_hand_side(self%system, self%iterate)
@@ -334,7 +365,8 @@ contains
     do k = 1, self%system%coordinates
       i = self%system%unknown(k)
       if (i == 0) cycle
-      if (settling) solution(i) = solution(i) - spring(i)*away(k)
+      if (pulled) solution(i) = solution(i) - spring(i)*away(k)
+      if (self%compliance > 0) solution(i) = 0
     end do
     call self%solver%factorize(self%iterate%values, error)
     if (.not. allocated(error)) call self%solver%solve(solution, error)
