@@ -1,9 +1,9 @@
 !> The initial assembly: positions at which every held strain is on its target and the values of
 !> STARTX hold, as near as may be to those given.
 !>
-!> Near means that strains with a stiffness keep their energy low and, of what costs none, that the
-!> coordinates change least, the sum of the squares of displacements over the model's length and of
-!> angles. Models as drawn are closed almost always; then nothing is done.
+!> Near means that strains with a stiffness change least, in energy, and of what costs none the
+!> coordinates, in the sum of the squares of displacements over the model's length and of angles.
+!> Models as drawn are closed almost always; then nothing is done.
 module start_assembly
   use kinds, only: wp
   use errors, only: error_t, fail, exit_deck
@@ -17,17 +17,16 @@ module start_assembly
   use system_build, only: build_system, find_system_pattern
   use system_assembly, only: iterate_t, new_iterate, assemble, right_hand_side, advance
   use system_constraints, only: coordinate_scale
-  use system_motion, only: set_targets
   use system_names, only: strain_name
   use equilibrium_path, only: check_angles
+  use strain_gaps, only: is_open, row_size, closed_gap
   implicit none
   private
 
-  public :: assemble_start, assemble_model, closed_gap
+  public :: assemble_start, assemble_model
 
-  !> Gaps up to this count as closed, and those that are closed end below this, in lengths of the
-  !> model or radians.
-  real(wp), parameter :: closed_gap = 1.0e-9_wp, no_gap = 1.0e-12_wp
+  !> Gaps that are closed end below this, in lengths of the model or radians.
+  real(wp), parameter :: no_gap = 1.0e-12_wp
 
   !> Weight of the coordinates' change against the largest stiffness: softer than any beam.
   real(wp), parameter :: softness = 1.0e-9_wp
@@ -101,56 +100,6 @@ contains
     end if
   end subroutine assemble_model
 
-  !> Whether a held strain is off its target.
-  pure logical function is_open(system, level, state)
-    type(system_t), intent(in) :: system
-    real(wp), intent(in) :: level(:)
-    type(state_t), intent(in) :: state
-    real(wp) :: target(size(system%multiplier))
-    integer :: e
-
-    call set_targets(system, level, target)
-    is_open = .false.
-    do e = 1, size(system%element)
-      associate (element => system%element(e)%e, &
-                 mine => target(system%first(e) + 1:system%first(e + 1)))
-        if (any(element%fixed)) is_open = is_open .or. is_off(system, element, state, mine)
-      end associate
-      if (is_open) return
-    end do
-  end function is_open
-
-  pure logical function is_off(system, element, state, target)
-    type(system_t), intent(in) :: system
-    class(element_t), intent(in) :: element
-    type(state_t), intent(in) :: state
-    real(wp), intent(in) :: target(element%strains)
-    real(wp) :: strain(element%strains), stress(element%strains)
-    real(wp) :: jacobian(element%strains, element%coordinates)
-    real(wp) :: geometric(element%coordinates, element%coordinates)
-    logical :: valid
-
-    stress = 0
-    call element%evaluate(state, stress, strain, jacobian, geometric, valid)
-    is_off = .not. valid
-    if (valid) is_off = any(element%fixed .and. &
-                            abs(strain - target) > closed_gap*row_size(system, element, jacobian))
-  end function is_off
-
-  !> By strain: its change when the model moves by its length or a radian.
-  pure function row_size(system, element, jacobian) result(size_of)
-    type(system_t), intent(in) :: system
-    class(element_t), intent(in) :: element
-    real(wp), intent(in) :: jacobian(element%strains, element%coordinates)
-    real(wp) :: size_of(element%strains)
-    integer :: j
-
-    size_of = tiny(1.0_wp)
-    do j = 1, element%coordinates
-      size_of = max(size_of, abs(jacobian(:, j))*coordinate_scale(system, element%coordinate(j)))
-    end do
-  end function row_size
-
   !> Newton with steps as short as possible, cut where they widen the gaps; when the place is the
   !> nearest one, what pulled it there is left out, so that it does not strain what is stiff.
   subroutine close_gaps(model, system, level, given, state, error)
@@ -192,7 +141,7 @@ contains
     call self%system%free()
   end subroutine close_gaps
 
-  !> A system of its own, with what is given as motions.
+  !> A system of its own, with what is given as motions, and without stress as it stands.
   subroutine new_closing(model, system, level, given, state, targets, self, error)
     type(model_t), intent(in) :: model
     type(system_t), intent(in) :: system
@@ -223,6 +172,8 @@ contains
                                pattern%symmetric, error)
     end associate
     allocate (self%gap(size(self%system%multiplier)), self%size_of(size(self%system%multiplier)))
+    call evaluate(self)
+    self%system%initial_stress = -self%iterate%elastic
     call evaluate(self)
   end subroutine new_closing
 

@@ -333,8 +333,8 @@ contains
         tolerance = agreed*(abs(rate(k)) + dot_product(abs(held%factor), &
                                                        abs(velocity(held%coordinate))))
         if (abs(found - rate(k)) <= tolerance) cycle
-        call fail(error, exit_deck, "the prescribed motions contradict each other at the start: "// &
-                  strain_name(model, self%system, k)//" should change at a rate of "// &
+        call fail(error, exit_deck, "the prescribed motions contradict each other at the "// &
+                  "start: "//strain_name(model, self%system, k)//" should change at a rate of "// &
                   to_text(rate(k), 4)//", the others make it "//to_text(found, 4))
         return
       end do

@@ -63,8 +63,8 @@ contains
     end if
   end function coordinate_name
 
-  !> "element 3 mode 2 (torsion)", "element 4 mode 1 (hinge)"; strains that are coordinates of a node
-  !> are named as such.
+  !> "element 3 mode 2 (torsion)", "element 4 mode 1 (hinge)"; strains that are coordinates of a
+  !> node are named as such.
   pure function strain_name(model, system, strain) result(name)
     type(model_t), intent(in) :: model
     type(system_t), intent(in) :: system

@@ -16,7 +16,8 @@ module start_models
   implicit none
   private
 
-  public :: frame_of_nodes, add_truss, add_joint, add_mass, add_motion, add_start, start, expect_error
+  public :: frame_of_nodes, add_truss, add_joint, add_mass, add_motion, add_start, start
+  public :: expect_error
 
 contains
 
@@ -84,9 +85,14 @@ contains
     type(model_t), intent(inout) :: model
     type(motion_t), intent(in) :: motion
 
+    type(motion_t), allocatable :: more(:)
+
     associate (pattern => model%pattern(1))
-      pattern%motion = [pattern%motion(:pattern%motions), motion]
-      pattern%motions = pattern%motions + 1
+      allocate (more(pattern%motions + 1))
+      if (pattern%motions > 0) more(:pattern%motions) = pattern%motion(:pattern%motions)
+      pattern%motions = size(more)
+      more(pattern%motions) = motion
+      call move_alloc(more, pattern%motion)
     end associate
     if (motion%joint > 0) model%joint(motion%joint)%status(motion%mode) = mode_prescribed
   end subroutine add_motion

@@ -8,8 +8,8 @@ module test_start_assembly
   use model_data, only: model_t, joint_t, motion_t, start_t, joint_spherical
   use nodal_state, only: state_t
   use system_data, only: system_t
-  use start_models, only: frame_of_nodes, add_truss, add_joint, add_motion, add_start, start, &
-                          expect_error
+  use start_models, only: frame_of_nodes, add_truss, add_joint, add_mass, add_motion, add_start, &
+                          start, expect_error
   implicit none
   private
 
@@ -30,6 +30,8 @@ contains
     call run("start: STARTX bends a beam as a force would", bent_beam)
     call run("start: STARTX turns a node", given_angle)
     call run("start: STARTX that the constraints do not allow", impossible_position)
+    call run("start: constraints are redundant where they are assembled", bent_pair)
+    call run("start: a motion that jumps after a STATIC", late_motion)
     call run("start: an angle of a half turn", half_turn)
   end subroutine run_start_assembly_tests
 
@@ -228,6 +230,49 @@ contains
     call system%free()
   end subroutine impossible_position
 
+  !> Two bars drawn in line, where three constraints are two; bent they are independent.
+  subroutine bent_pair()
+    type(model_t) :: model
+    type(memory_t) :: memory
+    type(error_t), allocatable :: error
+
+    call frame_of_nodes(reshape([0, 0, 0, 1, 0, 0, 2, 0, 0]*1.0_wp, [3, 3]), [1], model)
+    model%node(3)%fixed(2) = .true.
+    call add_truss(model, 1, 2)
+    call add_truss(model, 2, 3)
+    call add_mass(model, 2, 1.0_wp)
+    call add_mass(model, 3, 1.0_wp)
+    call add_motion(model, motion_t(node=3, component=1, value=-0.1_wp))
+    call add_start(model, start_t(node=2, component=2, value=sqrt(1 - 0.95_wp**2)))
+    call run_model(model, memory, error)
+    call expect(.not. allocated(error), "no error")
+    if (allocated(error)) return
+    call expect(size(memory%remarks) == 0, "no warnings")
+    call expect_close(memory%results(memory%steps)%displacement(:, 2), &
+                      [-0.05_wp, sqrt(1 - 0.95_wp**2), 0.0_wp], 1.0e-10_wp, "they stay")
+  end subroutine bent_pair
+
+  !> The tip of a beam is held during a STATIC and let start elsewhere.
+  subroutine late_motion()
+    real(wp), parameter :: tip = 1.0e-3_wp
+    type(model_t) :: model
+    type(memory_t) :: memory
+    type(error_t), allocatable :: error
+
+    call read_sound("MATERIAL m E 1000 G 400 RHO 1|SECTION s CONSTANTS A 1 IY 1 IZ 2 IT 1|"// &
+                    "NODE 1 0 0 0|NODE 2 3 0 0|BEAMW 1 1 2 SECTION s MATERIAL m|FIX 1|"// &
+                    "XF 2 1 0 0|STATIC STEPS 1|XF 2 2 0 0|TRANSIENT TEND 0.1 STEP 0.1", model)
+    call expect(size(model%pattern) == 2, "two patterns")
+    model%pattern(2)%motion = [motion_t(node=2, component=3, value=tip)]
+    model%pattern(2)%motions = 1
+    call run_model(model, memory, error)
+    call expect(.not. allocated(error), "no error")
+    if (allocated(error)) return
+    call expect_close(memory%results(1)%displacement(3, 2), 0.0_wp, 1.0e-15_wp, "held")
+    call expect_close(memory%results(2)%displacement(3, 2), tip, 1.0e-13_wp, "at the start")
+    call expect_close(memory%results(2)%displacement(1, 2), 3.0e-3_wp, 1.0e-5_wp, "still stretched")
+  end subroutine late_motion
+
   !> Steps up to 2.4 of 4 radians; the next passes pi.
   subroutine half_turn()
     type(model_t) :: model
@@ -239,8 +284,8 @@ contains
                     "FIX 1 X Y Z RY RZ|XF 2 0 0 0|STATIC STEPS 5", model)
     call add_motion(model, motion_t(node=1, component=4, value=4.0_wp))
     call run_model(model, memory, error)
-    call expect_error(error, "node 1 RX is prescribed an angle of 3.2, and INPUTX turns a node by "// &
-                      "less than pi; a HINGE with INPUTE makes full turns")
+    call expect_error(error, "node 1 RX is prescribed an angle of 3.2, and INPUTX turns a node "// &
+                      "by less than pi; a HINGE with INPUTE makes full turns")
     call expect(memory%steps == 3, "three steps are kept")
     if (memory%steps < 3) return
     call expect_close(memory%results(3)%euler(:, 2), [cos(1.2_wp), sin(1.2_wp), 0.0_wp, 0.0_wp], &
