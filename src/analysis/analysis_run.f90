@@ -6,11 +6,13 @@ module analysis_run
   use model_data, only: model_t, analysis_t, control_arc, analysis_static, analysis_buckling, &
                         analysis_eigen, analysis_transient, analysis_compliance, analysis_names
   use linalg_solver, only: solver_t
+  use nodal_state, only: state_t
   use system_data, only: system_t
   use system_build, only: build_system, find_system_pattern
   use system_assembly, only: iterate_t, new_iterate, assemble
   use system_constraints, only: drop_redundant, free_motions
   use system_names, only: coordinate_name, strain_name
+  use start_assembly, only: assemble_start
   use analysis_static, only: run_static
   use analysis_arc, only: run_arc
   use mode_results, only: modes_t
@@ -57,14 +59,17 @@ contains
     type(iterate_t), intent(out) :: iterate
     class(recorder_t), intent(inout) :: recorder
     type(error_t), allocatable, intent(out) :: error
+    type(state_t) :: state
 
     call check_memory(size(model%member), error)
     if (allocated(error)) return
     call build_system(model, system)
-    call warn_of_redundant(model, system, recorder, error)
+    call assemble_start(model, system, state, error)
+    if (.not. allocated(error)) call warn_of_redundant(model, system, state, recorder, error)
     if (allocated(error)) return
     call find_system_pattern(system)
     call new_iterate(system, iterate)
+    iterate%state = state
     call solver%prepare(system%equations(), system%pattern%row, system%pattern%column, &
                         system%pattern%symmetric, error)
     if (allocated(error) .or. .not. needs_structure(model)) return
@@ -173,15 +178,16 @@ contains
   end subroutine check_memory
 
   !> Redundant constraints that agree are left out, with a warning for each.
-  subroutine warn_of_redundant(model, system, recorder, error)
+  subroutine warn_of_redundant(model, system, state, recorder, error)
     type(model_t), intent(in) :: model
     type(system_t), intent(inout) :: system
+    type(state_t), intent(in) :: state
     class(recorder_t), intent(inout) :: recorder
     type(error_t), allocatable, intent(out) :: error
     integer, allocatable :: dropped(:)
     integer :: i
 
-    call drop_redundant(system, dropped, error)
+    call drop_redundant(system, state, dropped, error)
     if (allocated(error)) return
     do i = 1, size(dropped)
       call recorder%remark("warning: "//strain_name(model, system, dropped(i))// &

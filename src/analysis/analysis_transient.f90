@@ -10,7 +10,7 @@ module analysis_transient
   use system_assembly, only: iterate_t
   use system_inertia, only: masses_t, new_masses
   use system_results, only: results_t
-  use equilibrium_path, only: reason, check_dropped
+  use equilibrium_path, only: reason, check_dropped, check_angles
   use newton_method, only: newton_outcome_t, newton_converged
   use generalized_alpha, only: new_scheme, flow_t
   use dynamic_equilibrium, only: dynamics_t, new_dynamics, take_step, release_dynamics
@@ -183,6 +183,8 @@ contains
       jumps = jumps .and. last
       call remember(time, level, motion, before)
       where (motion%system%timed) level = merge(nearest(jump, -1.0_wp), time + length, jumps)
+      call check_angles(model, motion%system, level, error)
+      if (allocated(error)) return
       call take_step(motion, level, length, increment, predicted, outcome, error)
       record%iterations = record%iterations + outcome%last%iteration
       if (allocated(error)) return

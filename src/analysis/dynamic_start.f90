@@ -11,6 +11,8 @@ module dynamic_start
   use system_dynamics, only: add_inertia
   use rotation, only: identity3
   use dynamic_equilibrium, only: dynamics_t
+  use start_assembly, only: assemble_model
+  use start_velocity, only: find_velocities
   implicit none
   private
 
@@ -31,7 +33,13 @@ contains
     type(dynamics_t), intent(inout) :: motion
     type(error_t), allocatable, intent(out) :: error
 
-    if (fresh .and. size(model%start) > 0) motion%flow%velocity = 0
+    if (fresh) then
+      call assemble_model(model, motion%system, level, motion%iterate%state, error)
+      if (allocated(error)) return
+      call find_velocities(model, motion%system, motion%iterate%state, level, &
+                           motion%flow%velocity, error)
+      if (allocated(error)) return
+    end if
     call restart_motion(part_of_step*h, level, motion, error)
   end subroutine start_motion
 

@@ -44,9 +44,11 @@ module system_data
     real(wp) :: value = 0.0_wp, velocity = 0.0_wp, acceleration = 0.0_wp
   end type drive_t
 
-  !> Strains that are Euler parameters but driven by an angle or rotation vector.
+  !> Strains that are Euler parameters of a node, and driven by an angle or rotation vector unless
+  !> `euler`.
   type :: turn_t
     integer :: first = 0, strains = 0
+    logical :: euler = .false.
   end type turn_t
 
   !> Sparsity in coordinate form and, for each block (element or load), where its entries go.

@@ -8,7 +8,7 @@ module system_motion
   implicit none
   private
 
-  public :: make_motions, set_targets, target_rates, target_direction
+  public :: make_motions, set_targets, target_rates, target_direction, overturned
 
   !> An angle driven to this, in radians, has no rotation of its own any more: lambda = sin(angle/2)
   !> turns back.
@@ -16,8 +16,8 @@ module system_motion
 
 contains
 
-  !> The motions of all patterns, each with the strain it drives, and the rotations that are driven
-  !> by angles. Elements and the numbers of their strains are known.
+  !> The motions of all patterns, each with the strain it drives, and the rotations that are held or
+  !> driven. Elements and the numbers of their strains are known.
   subroutine make_motions(model, system)
     type(model_t), intent(in) :: model
     type(system_t), intent(inout) :: system
@@ -46,8 +46,9 @@ contains
       do n = 4, 6
         associate (e => system%holder(n, i))
           if (e == 0) cycle
-          if (euler(e) .or. any(system%holder(4:n - 1, i) == e)) cycle
-          system%turn = [system%turn, turn_t(system%first(e) + 1, system%element(e)%e%strains)]
+          if (any(system%holder(4:n - 1, i) == e)) cycle
+          system%turn = [system%turn, turn_t(system%first(e) + 1, system%element(e)%e%strains, &
+                                             euler(e))]
         end associate
       end do
     end do
@@ -126,6 +127,7 @@ contains
       end associate
     end do
     do i = 1, size(system%turn)
+      if (system%turn(i)%euler) cycle
       turned = 0
       do j = 1, system%turn(i)%strains
         associate (k => system%turn(i)%first + j - 1)
@@ -142,6 +144,34 @@ contains
       end do
     end do
   end subroutine derivatives
+
+  !> A rotation that its motions drive to a half turn or further, where its Euler parameters are
+  !> stationary or do not exist: its first strain, and the angle [rad]. 0: none.
+  pure subroutine overturned(system, level, strain, angle)
+    type(system_t), intent(in) :: system
+    real(wp), intent(in) :: level(:)  !< load factor, or time, of each pattern
+    integer, intent(out) :: strain
+    real(wp), intent(out) :: angle
+    real(wp) :: jet(0:2, size(system%drive)), driven(3)
+    integer :: i, j, p
+
+    strain = 0
+    angle = 0
+    if (size(system%drive) == 0) return
+    call parameters(system, level, [(.false., p=1, size(level))], jet)
+    do i = 1, size(system%turn)
+      associate (turn => system%turn(i))
+        do j = 1, turn%strains
+          driven(j) = sum(jet(0, :), system%drive%strain == turn%first + j - 1)
+        end do
+        angle = norm2(driven(:turn%strains))
+        if (turn%euler) angle = 2*asin(min(angle, 1.0_wp))
+        if (angle < largest_angle) cycle
+        strain = turn%first
+        return
+      end associate
+    end do
+  end subroutine overturned
 
   !> What each motion contributes, with derivatives to the level of its pattern where that grows.
   pure subroutine parameters(system, level, growing, jet)

@@ -13,7 +13,7 @@ module memory_recorder
   implicit none
   private
 
-  public :: memory_t, run_deck
+  public :: memory_t, run_deck, run_model
 
   type, extends(recorder_t) :: memory_t
     integer :: steps = 0
@@ -59,13 +59,7 @@ contains
         override(i)%value = trim(adjustl(settings(i)(at + 1:)))
       end do
     end if
-    memory%steps = 0
-    if (allocated(memory%record)) deallocate (memory%record, memory%results)
-    if (allocated(memory%remarks)) deallocate (memory%remarks, memory%completed, memory%critical)
-    if (allocated(memory%spectrum)) deallocate (memory%spectrum)
-    allocate (memory%record(400), memory%results(400), memory%remarks(0), memory%completed(0))
-    allocate (memory%spectrum(0))
-    allocate (memory%critical(0))
+    call reset(memory)
     call read_deck("tests/cases/static/"//name//".deck", override, model, report, error)
     if (allocated(error)) return
     if (report%errors() > 0) then
@@ -74,8 +68,30 @@ contains
       error%message = "errors in the deck "//name
       return
     end if
-    call run_analyses(model, memory, error)
+    call run_model(model, memory, error)
   end subroutine run_deck
+
+  !> Run a model from the start.
+  subroutine run_model(model, memory, error)
+    type(model_t), intent(in) :: model
+    type(memory_t), intent(inout) :: memory
+    type(error_t), allocatable, intent(out) :: error
+
+    call reset(memory)
+    call run_analyses(model, memory, error)
+  end subroutine run_model
+
+  subroutine reset(memory)
+    type(memory_t), intent(inout) :: memory
+
+    memory%steps = 0
+    if (allocated(memory%record)) deallocate (memory%record, memory%results)
+    if (allocated(memory%remarks)) deallocate (memory%remarks, memory%completed, memory%critical)
+    if (allocated(memory%spectrum)) deallocate (memory%spectrum)
+    allocate (memory%record(400), memory%results(400), memory%remarks(0), memory%completed(0))
+    allocate (memory%spectrum(0))
+    allocate (memory%critical(0))
+  end subroutine reset
 
   subroutine memory_begin(self, number, analysis, error)
     class(memory_t), intent(inout) :: self

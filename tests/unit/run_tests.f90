@@ -23,6 +23,8 @@ program run_tests
   use test_column_vibration, only: run_column_vibration_tests
   use test_static, only: run_static_tests
   use test_dead_loads, only: run_dead_loads_tests
+  use test_start_assembly, only: run_start_assembly_tests
+  use test_start_velocity, only: run_start_velocity_tests
   use test_limits, only: run_limits_tests
   use test_path, only: run_path_tests
   use test_stability, only: run_stability_tests
@@ -64,6 +66,8 @@ program run_tests
   call run_column_vibration_tests()
   call run_static_tests()
   call run_dead_loads_tests()
+  call run_start_assembly_tests()
+  call run_start_velocity_tests()
   call run_limits_tests()
   call run_path_tests()
   call run_stability_tests()
