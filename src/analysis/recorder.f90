@@ -51,6 +51,7 @@ module recorder
   contains
     procedure :: critical_point
     procedure :: modes
+    procedure :: compliance
     procedure(begin_interface), deferred :: begin
     procedure(iteration_interface), deferred :: iteration
     procedure(remark_interface), deferred :: remark
@@ -129,6 +130,25 @@ contains
     end do
     if (size(line) < 0) call fail(error, exit_solve, "")
   end subroutine modes
+
+  !> How nodes yield to loads: displacement and rotation of each by a unit force and moment on it,
+  !> in global axes. A line for each, unless a recorder keeps more.
+  subroutine compliance(self, node, matrix, error)
+    class(recorder_t), intent(inout) :: self
+    integer, intent(in) :: node(:)            !< indices in the model
+    !> (6, 6, nodes) X Y Z [L], RX RY RZ [1] by FX FY FZ [F], MX MY MZ [F L]
+    real(wp), intent(in) :: matrix(:, :, :)
+    type(error_t), allocatable, intent(out) :: error
+    integer :: i, j
+
+    do i = 1, size(node)
+      do j = 1, 6
+        call self%remark("compliance of node number "//to_text(node(i))//", direction "// &
+                         to_text(j)//": "//to_text(matrix(j, j, i)))
+      end do
+    end do
+    if (size(matrix, 3) /= size(node)) call fail(error, exit_solve, "a compliance without a node")
+  end subroutine compliance
 
   !> A critical point was passed: a line of it, unless a recorder keeps more.
   subroutine critical_point(self, point, error)

@@ -31,6 +31,7 @@ program run_tests
   use test_deck_sections, only: run_deck_sections_tests
   use test_section_command, only: run_section_command_tests
   use test_manual, only: run_manual_tests
+  use test_kinematic, only: run_kinematic_tests
   implicit none
 
   call run_linalg_tests()
@@ -64,5 +65,6 @@ program run_tests
   call run_deck_sections_tests()
   call run_section_command_tests()
   call run_manual_tests()
+  call run_kinematic_tests()
   call finish()
 end program run_tests
