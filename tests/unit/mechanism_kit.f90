@@ -13,6 +13,9 @@ module mechanism_kit
   private
 
   public :: new_mechanism, add_node, add_bar, add_hinge, add_mass, drive, add_analysis, run_mechanism
+  public :: make_four_bar, four_bar_angles, unit, across
+
+  integer, parameter :: x = 1, y = 2, z = 3, rx = 4, ry = 5, rz = 6
 
 contains
 
@@ -133,5 +136,61 @@ contains
     call orient_members(model, report)
     call run_analyses(model, memory, error)
   end subroutine run_mechanism
+
+  !> Base, crank, coupler and rocker with hinges about z at all four ends, drawn with the crank at
+  !> `start`; nodes `b` and `c` are the coupler's ends. The hinge of the crank drives.
+  subroutine make_four_bar(base, crank, coupler, rocker, start, model, b, c)
+    real(wp), intent(in) :: base, crank, coupler, rocker, start
+    type(model_t), intent(out) :: model
+    integer, intent(out) :: b, c
+    real(wp) :: angle(2)
+    integer :: i, a, d, ground(2), b_of_coupler, c_of_coupler
+
+    angle = four_bar_angles(base, crank, coupler, rocker, start)
+    call new_mechanism(model)
+    a = add_node(model, [0.0_wp, 0.0_wp, 0.0_wp], [x, y, z])
+    d = add_node(model, [base, 0.0_wp, 0.0_wp], [x, y, z])
+    b = add_node(model, crank*unit(start))
+    c = add_node(model, crank*unit(start) + coupler*unit(angle(1)))
+    b_of_coupler = add_node(model, model%node(b)%position)
+    c_of_coupler = add_node(model, model%node(c)%position)
+    ground(1) = add_node(model, model%node(a)%position, [rx, ry, rz])
+    ground(2) = add_node(model, model%node(d)%position, [rx, ry, rz])
+    i = add_bar(model, a, b, a, b)
+    i = add_bar(model, b, c, b_of_coupler, c_of_coupler)
+    i = add_bar(model, d, c, d, c)
+    i = add_hinge(model, ground(1), a, .true.)
+    call drive(model, i, 0.0_wp, 1.0_wp, 0.0_wp)
+    i = add_hinge(model, b, b_of_coupler, .false.)
+    i = add_hinge(model, c, c_of_coupler, .false.)
+    i = add_hinge(model, ground(2), d, .false.)
+  end subroutine make_four_bar
+
+  pure function unit(angle) result(u)
+    real(wp), intent(in) :: angle
+    real(wp) :: u(3)
+
+    u = [cos(angle), sin(angle), 0.0_wp]
+  end function unit
+
+  !> Angles of coupler and rocker, the coupler above the diagonal: law of cosines.
+  pure function four_bar_angles(base, crank, coupler, rocker, angle) result(others)
+    real(wp), intent(in) :: base, crank, coupler, rocker, angle
+    real(wp) :: others(2), diagonal(3), d, tip(3)
+
+    diagonal = base*unit(0.0_wp) - crank*unit(angle)
+    d = norm2(diagonal)
+    others(1) = atan2(diagonal(2), diagonal(1)) &
+                + acos((coupler**2 + d**2 - rocker**2)/(2*coupler*d))
+    tip = crank*unit(angle) + coupler*unit(others(1)) - base*unit(0.0_wp)
+    others(2) = atan2(tip(2), tip(1))
+  end function four_bar_angles
+
+  pure function across(angle) result(u)
+    real(wp), intent(in) :: angle
+    real(wp) :: u(3)
+
+    u = [-sin(angle), cos(angle), 0.0_wp]
+  end function across
 
 end module mechanism_kit
