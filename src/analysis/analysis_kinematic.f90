@@ -173,8 +173,8 @@ contains
     course%record%iterations = 0
     course%record%cutbacks = 0
     if (recorder%interrupted()) then
-      call fail(error, exit_interrupt, "interrupted at time "//to_text(course%time)//"; what was "// &
-                "written before is kept")
+      call fail(error, exit_interrupt, "interrupted at time "//to_text(course%time)// &
+                "; what was written before is kept")
       return
     end if
     if (course%bridged .and. goal > course%beyond%time) then

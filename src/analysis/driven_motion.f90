@@ -169,7 +169,8 @@ contains
         outcome%last%constraint = largest(self, motion%iterate%target - motion%iterate%strain) &
                                   /motion%system%length
         outcome%status = newton_converged
-        if (left <= tolerance .and. (outcome%last%constraint <= tolerance .or. iteration > 3)) return
+        if (left <= tolerance .and. &
+            (outcome%last%constraint <= tolerance .or. iteration > 3)) return
         call motion%solver%factorize(motion%iterate%values, error)
         if (allocated(error)) return
         solution = right_hand_side(motion%system, motion%iterate)

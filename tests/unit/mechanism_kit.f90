@@ -3,16 +3,17 @@ module mechanism_kit
   use kinds, only: wp
   use errors, only: error_t
   use diagnostics, only: report_t
-  use model_data, only: model_t, member_t, joint_t, mass_t, motion_t, analysis_t, node_t, type_beam, &
-                        mode_released, mode_prescribed, mode_fixed, joint_hinge, translational, &
-                        rotational, warping
+  use model_data, only: model_t, member_t, joint_t, mass_t, motion_t, analysis_t, node_t, &
+                        type_beam, mode_released, mode_prescribed, mode_fixed, joint_hinge, &
+                        translational, rotational, warping
   use model_axes, only: orient_members
   use analysis_run, only: run_analyses
   use memory_recorder, only: memory_t
   implicit none
   private
 
-  public :: new_mechanism, add_node, add_bar, add_hinge, add_mass, drive, add_analysis, run_mechanism
+  public :: new_mechanism, add_node, add_bar, add_hinge, add_mass, drive, add_analysis
+  public :: run_mechanism, make_slider_crank, slider_jet
   public :: make_four_bar, four_bar_angles, unit, across
 
   integer, parameter :: x = 1, y = 2, z = 3, rx = 4, ry = 5, rz = 6
@@ -192,5 +193,36 @@ contains
 
     u = [-sin(angle), cos(angle), 0.0_wp]
   end function across
+
+  !> Crank and rod along x, the slider at `slider`; hinge 1 drives.
+  subroutine make_slider_crank(crank, rod, speed, model, slider)
+    real(wp), intent(in) :: crank, rod, speed
+    type(model_t), intent(out) :: model
+    integer, intent(out) :: slider
+    integer :: ground, pin, pin_of_rod, base, i
+
+    call new_mechanism(model)
+    ground = add_node(model, [0.0_wp, 0.0_wp, 0.0_wp], [x, y, z])
+    pin = add_node(model, [crank, 0.0_wp, 0.0_wp])
+    slider = add_node(model, [crank + rod, 0.0_wp, 0.0_wp], [y])
+    pin_of_rod = add_node(model, [crank, 0.0_wp, 0.0_wp])
+    base = add_node(model, [0.0_wp, 0.0_wp, 0.0_wp], [rx, ry, rz])
+    i = add_bar(model, ground, pin, ground, pin)
+    i = add_bar(model, pin, slider, pin_of_rod, slider)
+    i = add_hinge(model, base, ground, .true.)
+    call drive(model, i, 0.0_wp, speed, 0.0_wp)
+    i = add_hinge(model, pin, pin_of_rod, .false.)
+  end subroutine make_slider_crank
+
+  !> Place of the slider, and its derivatives to the crank's angle.
+  pure function slider_jet(r, l, angle) result(jet)
+    real(wp), intent(in) :: r, l, angle
+    real(wp) :: jet(0:2), q
+
+    q = sqrt(l**2 - (r*sin(angle))**2)
+    jet(0) = r*cos(angle) + q
+    jet(1) = -r*sin(angle) - r**2*sin(angle)*cos(angle)/q
+    jet(2) = -r*cos(angle) - r**2*cos(2*angle)/q - (r**2*sin(angle)*cos(angle))**2/q**3
+  end function slider_jet
 
 end module mechanism_kit
