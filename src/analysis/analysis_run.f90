@@ -4,7 +4,8 @@ module analysis_run
   use errors, only: error_t, fail, exit_deck, exit_io
   use text, only: to_text
   use model_data, only: model_t, analysis_t, control_arc, analysis_static, analysis_buckling, &
-                        analysis_eigen, analysis_transient, analysis_compliance, analysis_names
+                        analysis_eigen, analysis_transient, analysis_kinematic, analysis_inverse, &
+                        analysis_compliance, analysis_names
   use linalg_solver, only: solver_t
   use nodal_state, only: state_t
   use system_data, only: system_t
@@ -20,6 +21,8 @@ module analysis_run
   use analysis_buckling, only: run_buckling
   use analysis_eigen, only: run_eigen
   use analysis_transient, only: run_transient
+  use analysis_kinematic, only: run_kinematic
+  use analysis_compliance, only: run_compliance
   use generalized_alpha, only: flow_t
   use recorder, only: recorder_t
   implicit none
@@ -152,6 +155,12 @@ contains
       if (analysis%pattern > 0) system%timed(analysis%pattern) = .true.
       call run_transient(model, system, analysis, course%time, level, iterate, course%flow, &
                          recorder, error)
+    case (analysis_kinematic, analysis_inverse)
+      if (analysis%pattern > 0) system%timed(analysis%pattern) = .true.
+      call run_kinematic(model, system, analysis, course%time, level, iterate, course%flow, &
+                         recorder, error)
+    case (analysis_compliance)
+      call run_compliance(model, system, solver, analysis, level, iterate, recorder, error)
     case (analysis_static)
       if (allocated(course%flow)) deallocate (course%flow)
       if (analysis%control == control_arc) then

@@ -15,6 +15,7 @@ module analysis_transient
   use generalized_alpha, only: new_scheme, flow_t
   use dynamic_equilibrium, only: dynamics_t, new_dynamics, take_step, release_dynamics
   use dynamic_start, only: start_motion, restart_motion, part_of_step
+  use motion_times, only: number_of_stops, is_output, instant_t, remember, go_back
   use energy_account, only: account_t, open_account, reopen_account, enter_step, &
                             motion_results
   use recorder, only: recorder_t, step_t, iteration_t
@@ -27,14 +28,6 @@ module analysis_transient
 
   !> A step may grow and shrink by these factors, and aims at this part of the tolerance.
   real(wp), parameter :: most_growth = 2.0_wp, most_shrinking = 0.2_wp, safety = 0.8_wp
-
-  !> Where a step starts from, to come back to.
-  type :: instant_t
-    real(wp) :: time = 0.0_wp
-    type(iterate_t) :: iterate
-    type(flow_t) :: flow
-    real(wp), allocatable :: level(:)
-  end type instant_t
 
 contains
 
@@ -111,41 +104,12 @@ contains
       if (allocated(error)) return
       call check_dropped(model, motion%system, motion%iterate, error)
       if (allocated(error)) return
-      if (.not. is_output(analysis, start, stop, stops, span)) cycle
+      if (.not. is_output(analysis, stop, stops, span)) cycle
       record%step = record%step + 1
       record%time = time
       call keep(model, motion, account, recorder, record, error)
     end do
   end subroutine march
-
-  !> Equal steps, or intervals of the output.
-  pure integer function number_of_stops(analysis, span) result(stops)
-    type(analysis_t), intent(in) :: analysis
-    real(wp), intent(in) :: span
-    real(wp) :: interval
-
-    interval = span
-    if (analysis%time_step > 0) then
-      interval = analysis%time_step
-    else if (analysis%every > 0) then
-      interval = analysis%every
-    end if
-    stops = max(1, ceiling(span/interval - 1.0e-6_wp))
-  end function number_of_stops
-
-  !> With a fixed step, the steps nearest to multiples of EVERY are kept, and the last.
-  pure logical function is_output(analysis, start, stop, stops, span)
-    type(analysis_t), intent(in) :: analysis
-    real(wp), intent(in) :: start, span
-    integer, intent(in) :: stop, stops
-    real(wp) :: h
-
-    is_output = .true.
-    if (.not. analysis%time_step > 0 .or. .not. analysis%every > 0 .or. stop == stops) return
-    h = span/stops
-    is_output = floor((stop + 0.5_wp)*h/analysis%every) > floor((stop - 0.5_wp)*h/analysis%every)
-    if (start < 0) is_output = .true.
-  end function is_output
 
   !> To a time, in one step or several: halved where Newton fails, and in adaptive steps chosen by
   !> their error; `h` is the length to try next.
@@ -250,30 +214,6 @@ contains
     step_error = abs(motion%scheme%beta - 1.0_wp/6)/motion%scheme%beta &
                  *maxval(abs(increment - predicted)/motion%scale)
   end function step_error
-
-  subroutine remember(time, level, motion, instant)
-    real(wp), intent(in) :: time, level(:)
-    type(dynamics_t), intent(in) :: motion
-    type(instant_t), intent(inout) :: instant
-
-    instant%time = time
-    instant%level = level
-    instant%iterate%state = motion%iterate%state
-    instant%iterate%stress = motion%iterate%stress
-    instant%flow = motion%flow
-  end subroutine remember
-
-  subroutine go_back(instant, time, level, motion)
-    type(instant_t), intent(in) :: instant
-    real(wp), intent(out) :: time, level(:)
-    type(dynamics_t), intent(inout) :: motion
-
-    time = instant%time
-    level = instant%level
-    motion%iterate%state = instant%iterate%state
-    motion%iterate%stress = instant%iterate%stress
-    motion%flow = instant%flow
-  end subroutine go_back
 
   subroutine keep(model, motion, account, recorder, record, error)
     type(model_t), intent(in) :: model

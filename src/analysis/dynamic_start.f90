@@ -4,10 +4,10 @@ module dynamic_start
   use kinds, only: wp
   use errors, only: error_t
   use model_data, only: model_t
-  use element_base, only: element_t
   use system_data, only: system_t
   use system_assembly, only: iterate_t, assemble, right_hand_side
   use system_motion, only: target_rates
+  use system_rates, only: convective_rates
   use system_dynamics, only: add_inertia
   use rotation, only: identity3
   use dynamic_equilibrium, only: dynamics_t
@@ -118,40 +118,11 @@ contains
     type(iterate_t), intent(in) :: iterate  !< with its state and velocity
     real(wp), intent(in) :: level(:)
     real(wp), intent(out) :: demand(:)
-    real(wp) :: rate(size(demand))
-    integer :: e
+    real(wp), dimension(size(demand)) :: rate, convective
 
     call target_rates(system, level, rate, demand)
-    do e = 1, size(system%element)
-      associate (element => system%element(e)%e, &
-                 mine => demand(system%first(e) + 1:system%first(e + 1)))
-        if (any(element%fixed)) call subtract_convective(element, iterate, mine)
-      end associate
-    end do
+    call convective_rates(system, iterate%state, iterate%velocity, .true., convective)
+    demand = demand - convective
   end subroutine constraint_accelerations
-
-  !> v'Hv of the fixed strains of an element, one after the other.
-  pure subroutine subtract_convective(element, iterate, demand)
-    class(element_t), intent(in) :: element
-    type(iterate_t), intent(in) :: iterate
-    real(wp), intent(inout) :: demand(element%strains)
-    real(wp) :: stress(element%strains), strain(element%strains), velocity(element%coordinates)
-    real(wp) :: jacobian(element%strains, element%coordinates)
-    real(wp) :: geometric(element%coordinates, element%coordinates)
-    integer :: i
-    logical :: valid
-
-    do i = 1, element%coordinates
-      velocity(i) = iterate%velocity(element%coordinate(i))
-    end do
-    if (.not. any(abs(velocity) > 0)) return
-    do i = 1, element%strains
-      if (.not. element%fixed(i)) cycle
-      stress = 0
-      stress(i) = 1
-      call element%evaluate(iterate%state, stress, strain, jacobian, geometric, valid)
-      if (valid) demand(i) = demand(i) - dot_product(velocity, matmul(geometric, velocity))
-    end do
-  end subroutine subtract_convective
 
 end module dynamic_start

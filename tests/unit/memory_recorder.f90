@@ -25,11 +25,13 @@ module memory_recorder
     logical, allocatable :: completed(:)      !< by analysis
     type(modes_t), allocatable :: spectrum(:) !< of BUCKLING and EIGEN, in their order
     type(critical_t), allocatable :: critical(:)
+    real(wp), allocatable :: compliances(:, :, :)  !< of the last COMPLIANCE
   contains
     procedure :: begin => memory_begin
     procedure :: iteration => memory_iteration
     procedure :: remark => memory_remark
     procedure :: critical_point => memory_critical
+    procedure :: compliance => memory_compliance
     procedure :: step => memory_step
     procedure :: modes => memory_modes
     procedure :: finish => memory_finish
@@ -136,6 +138,16 @@ contains
     call move_alloc(more, self%critical)
     if (point%step < 0) allocate (error)
   end subroutine memory_critical
+
+  subroutine memory_compliance(self, node, matrix, error)
+    class(memory_t), intent(inout) :: self
+    integer, intent(in) :: node(:)
+    real(wp), intent(in) :: matrix(:, :, :)
+    type(error_t), allocatable, intent(out) :: error
+
+    self%compliances = matrix
+    if (size(node) /= size(matrix, 3)) allocate (error)
+  end subroutine memory_compliance
 
   subroutine memory_step(self, step, results, error)
     class(memory_t), intent(inout) :: self
