@@ -440,6 +440,8 @@ contains
   subroutine test_progress()
     call expect(time_line(1.0_wp, 2.0_wp, 5.0_wp, 600, 30.0_wp) == &
                 "time 2 of 5, 25 %, 20 steps per second, 90 s to go", "a quarter")
+    call expect(index(time_line(0.0_wp, 0.1_wp, 1.0_wp, 123456, 10.0_wp), "12346 steps") > 0, &
+                "many steps per second")
     call expect(index(time_line(0.0_wp, 0.1_wp, 1.0_wp, 1, 60.0_wp), "9:00 min to go") > 0, &
                 "minutes")
     call expect(index(time_line(0.0_wp, 0.1_wp, 1.0_wp, 1, 1000.0_wp), "2:30 h to go") > 0, &
