@@ -89,8 +89,8 @@ contains
     done = min(1.0_wp, max(0.0_wp, time - from)/max(to - from, tiny(to)))
     line = "time "//to_text(time, 4)//" of "//to_text(to, 4)//", "//to_text(int(100*done))//" %"
     if (.not. seconds*done > 0) return
-    line = line//", "//to_text(steps/seconds, 3)//" steps per second, "// &
-           duration(seconds*(1 - done)/done)//" to go"
+    line = line//", "//to_text(steps/seconds, max(3, 1 + floor(log10(steps/seconds + 1))))// &
+           " steps per second, "//duration(seconds*(1 - done)/done)//" to go"
   end function time_line
 
   !> "40 s", "3:20 min", "2:05 h".
