@@ -43,8 +43,8 @@ contains
     call find_accelerations(motion, part_of_step*h, level, error)
   end subroutine start_motion
 
-  !> M a + C'mu = f - h - D'sigma, C a = rates of the targets - v'Hv; with the matrix of a very short
-  !> step, whose stiffness gives coordinates without mass theirs. Left in flow and iterate.
+  !> M a + C'mu = f - h - D'sigma, C a = rates of the targets - v'Hv; with the matrix of a very
+  !> short step, whose stiffness gives coordinates without mass theirs. Left in flow and iterate.
   subroutine find_accelerations(motion, h, level, error)
     type(dynamics_t), intent(inout) :: motion
     real(wp), intent(in) :: h, level(:)
