@@ -123,9 +123,9 @@ contains
 
     call overturned(system, level, strain, angle)
     if (strain == 0) return
-    call fail(error, exit_deck, strain_name(model, system, strain)//" is prescribed an angle of "// &
-              to_text(angle, 4)//", and INPUTX turns a node by less than pi; a HINGE with INPUTE "// &
-              "makes full turns")
+    call fail(error, exit_deck, strain_name(model, system, strain)//" is prescribed an angle "// &
+              "of "//to_text(angle, 4)//", and INPUTX turns a node by less than pi; a HINGE "// &
+              "with INPUTE makes full turns")
   end subroutine check_angles
 
   pure function parameter_name(analysis) result(name)

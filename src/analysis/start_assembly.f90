@@ -367,6 +367,10 @@ contains
       given(drive(size(drive) - self%givens + 1:)%strain) = .true.
     end associate
     problem = "the loop does not close: "
+    if (self%compliance <= most_compliance) then
+      problem = "no way was found in "//to_text(most_iterations)//" iterations to close the "// &
+                "loop from where it is drawn: "
+    end if
     if (any(given .and. self%gap > closed_gap)) then
       problem = "the constraints do not let STARTX be met: "
     else
