@@ -36,7 +36,7 @@ module recorder
   integer, parameter, public :: critical_limit = 1, critical_bifurcation = 2
   character(len=11), parameter, public :: critical_name(2) = ["limit point", "bifurcation"]
 
-  public :: critical_line
+  public :: critical_line, compliance_line
 
   !> A critical point of the path.
   type, public :: critical_t
@@ -139,16 +139,27 @@ contains
     !> (6, 6, nodes) X Y Z [L], RX RY RZ [1] by FX FY FZ [F], MX MY MZ [F L]
     real(wp), intent(in) :: matrix(:, :, :)
     type(error_t), allocatable, intent(out) :: error
-    integer :: i, j
+    integer :: i
 
     do i = 1, size(node)
-      do j = 1, 6
-        call self%remark("compliance of node number "//to_text(node(i))//", direction "// &
-                         to_text(j)//": "//to_text(matrix(j, j, i)))
-      end do
+      call self%remark(compliance_line("node number "//to_text(node(i)), matrix(:, :, i)))
     end do
     if (size(matrix, 3) /= size(node)) call fail(error, exit_solve, "a compliance without a node")
   end subroutine compliance
+
+  !> The compliance of a node in its own directions, in one line.
+  function compliance_line(name, matrix) result(line)
+    character(len=*), intent(in) :: name
+    real(wp), intent(in) :: matrix(6, 6)
+    character(len=:), allocatable :: line
+    character(len=2), parameter :: direction(6) = ["X ", "Y ", "Z ", "RX", "RY", "RZ"]
+    integer :: i
+
+    line = name//":"
+    do i = 1, 6
+      line = line//" "//trim(direction(i))//" "//to_text(matrix(i, i), 5)
+    end do
+  end function compliance_line
 
   !> A critical point was passed: a line of it, unless a recorder keeps more.
   subroutine critical_point(self, point, error)
