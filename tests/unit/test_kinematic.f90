@@ -3,7 +3,8 @@ module test_kinematic
   use kinds, only: wp
   use check, only: run, expect, expect_close
   use errors, only: error_t, exit_deck
-  use model_data, only: model_t, analysis_kinematic, analysis_inverse, analysis_transient
+  use model_data, only: model_t, analysis_kinematic, analysis_inverse, analysis_transient, &
+                        function_ramp
   use memory_recorder, only: memory_t
   use mechanism_kit, only: add_node, add_bar, add_hinge, add_mass, drive, add_analysis, &
                            run_mechanism, make_slider_crank, slider_jet, make_four_bar, &
@@ -26,6 +27,7 @@ contains
     call run("kinematic: a time just beside a change point", beside_change_point)
     call run("kinematic: parallelograms in a row, very small steps", row_of_parallelograms)
     call run("kinematic: a start away from the drawing", far_start)
+    call run("kinematic: a drive that starts and stops at once", kinks)
     call run("kinematic: then INVERSE, then TRANSIENT", in_turn)
     call run("kinematic: a motion that nothing prescribes", undriven)
     call run("kinematic: a position out of reach", out_of_reach)
@@ -290,6 +292,36 @@ contains
     call expect_close(model%node(c)%position + memory%results(2)%displacement(:, c), &
                       base*unit(0.0_wp) + rocker*unit(others(2)), 1.0e-9_wp, "end")
   end subroutine far_start
+
+  !> A ramp from 0.25 to 0.75, amid steps: velocities jump because the drive's do.
+  subroutine kinks()
+    type(model_t) :: model
+    type(memory_t) :: memory
+    real(wp) :: jet(0:2), t, angle, speed
+    integer :: i, slider
+
+    call make_slider_crank(0.15_wp, 0.3_wp, 0.0_wp, model, slider)
+    deallocate (model%function)
+    allocate (model%function(1))
+    model%function(1)%kind = function_ramp
+    model%function(1)%parameter(1:2) = [0.25_wp, 0.75_wp]
+    model%pattern(1)%motion(1)%function = 1
+    model%pattern(1)%motion(1)%value = 1.2_wp
+    call add_analysis(model, analysis_kinematic, 1.0_wp, 0.1_wp)
+    call solve(model, memory)
+    call expect(memory%steps == 11, "all steps")
+    do i = 1, memory%steps
+      t = memory%record(i)%time
+      angle = 1.2_wp*min(1.0_wp, max(0.0_wp, (t - 0.25_wp)/0.5_wp))
+      speed = merge(2.4_wp, 0.0_wp, t > 0.25_wp .and. t < 0.75_wp)
+      jet = slider_jet(0.15_wp, 0.3_wp, angle)
+      associate (now => memory%results(i))
+        call expect_close(0.45_wp + now%displacement(1, slider), jet(0), 1.0e-11_wp, "place")
+        call expect_close(now%velocity(1, slider), speed*jet(1), 1.0e-9_wp, "velocity")
+      end associate
+      call expect(memory%record(i)%cutbacks == 0, "no cut-back")
+    end do
+  end subroutine kinks
 
   !> Each goes on from the other's time and state; TRANSIENT keeps the drive.
   subroutine in_turn()
