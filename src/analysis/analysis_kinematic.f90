@@ -23,7 +23,8 @@ module analysis_kinematic
   use generalized_alpha, only: flow_t
   use driven_motion, only: driven_t, new_driven, release_driven, find_undriven, find_motion, &
                            is_smooth
-  use motion_times, only: number_of_stops, is_output, instant_t, remember, go_back
+  use motion_instant, only: instant_t, remember, go_back
+  use time_grid, only: time_grid_t, new_time_grid
   use motion_bridge, only: bridge, increment_between
   use energy_account, only: account_t, open_account, enter_step, motion_results, rate_results
   use recorder, only: recorder_t, step_t
@@ -112,28 +113,26 @@ contains
     class(recorder_t), intent(inout) :: recorder
     type(error_t), allocatable, intent(out) :: error
     type(instant_t) :: before
-    real(wp) :: start, span
-    integer :: stop, stops
+    type(time_grid_t) :: grid
+    integer :: stop
 
     call take_up(model, driven, course, error)
     if (allocated(error)) return
     call open_account(driven%motion, course%account)
-    start = course%time
-    span = analysis%end_time - start
-    stops = number_of_stops(analysis, span)
-    course%record%time = start
+    grid = new_time_grid(analysis, course%time)
+    course%record%time = grid%start
     call keep(model, driven, course, recorder, error)
-    do stop = 1, stops
+    do stop = 1, grid%stops
       if (allocated(error)) return
       call remember(course%time, course%level, driven%motion, before)
-      call reach(model, driven, start + span*stop/stops, course, recorder, error)
+      call reach(model, driven, grid%time(stop), course, recorder, error)
       if (.not. allocated(error)) then
         call check_dropped(model, driven%motion%system, driven%motion%iterate, error)
       end if
       if (allocated(error)) return
       call enter_step(driven%motion, course%time - before%time, &
                       increment_between(before%state, driven%motion%iterate%state), course%account)
-      if (.not. is_output(analysis, stop, stops, span)) cycle
+      if (.not. grid%is_regular(stop) .and. stop < grid%stops) cycle
       course%record%step = course%record%step + 1
       course%record%time = course%time
       course%record%size = course%time - before%time

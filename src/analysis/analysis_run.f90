@@ -24,6 +24,8 @@ module analysis_run
   use analysis_kinematic, only: run_kinematic
   use analysis_compliance, only: run_compliance
   use generalized_alpha, only: flow_t
+  use restart_point, only: point_t
+  use motion_restart, only: restore_shape
   use recorder, only: recorder_t
   implicit none
   private
@@ -35,21 +37,25 @@ module analysis_run
     type(modes_t) :: modes               !< of the last BUCKLING
     real(wp) :: time = 0.0_wp
     type(flow_t), allocatable :: flow    !< rates of a motion, which the next one takes up
+    type(point_t), allocatable :: point  !< where the next analysis is to go on
   end type course_t
 
 contains
 
-  !> Build the system, check that it can stand, run all analyses.
-  subroutine run_analyses(model, recorder, error)
+  !> Build the system, check that it can stand, run all analyses; from a restart `point`, if there is
+  !> one, those that are left.
+  subroutine run_analyses(model, recorder, error, point)
     type(model_t), intent(in) :: model
     class(recorder_t), intent(inout) :: recorder
     type(error_t), allocatable, intent(out) :: error
+    type(point_t), intent(in), optional :: point
     type(system_t) :: system
     type(solver_t) :: solver
     type(iterate_t) :: iterate
 
     call set_up(model, system, solver, iterate, recorder, error)
-    if (.not. allocated(error)) call run_in_order(model, system, solver, iterate, recorder, error)
+    if (.not. allocated(error)) call run_in_order(model, system, solver, iterate, recorder, error, &
+                                                  point)
     call solver%free()
     call system%free()
   end subroutine run_analyses
@@ -93,31 +99,45 @@ contains
     end do
   end function needs_structure
 
-  subroutine run_in_order(model, system, solver, iterate, recorder, error)
+  subroutine run_in_order(model, system, solver, iterate, recorder, error, point)
     type(model_t), intent(in) :: model
     type(system_t), intent(inout) :: system
     type(solver_t), intent(inout) :: solver
     type(iterate_t), intent(inout) :: iterate
     class(recorder_t), intent(inout) :: recorder
     type(error_t), allocatable, intent(out) :: error
+    type(point_t), intent(in), optional :: point
     type(error_t), allocatable :: second
     type(model_t) :: shaped
     type(course_t) :: course
     real(wp) :: level(size(model%pattern))
-    integer :: i
+    integer :: first, i
+    logical :: reshaped
 
     level = 0
+    first = 1
     if (size(model%imperfection) > 0) shaped = model
-    do i = 1, size(model%analysis)
-      if (any(model%imperfection%analysis == i)) then
-        call add_imperfections(i, course%modes, shaped, error)
-        if (allocated(error)) return
+    if (present(point)) then
+      first = point%analysis
+      allocate (course%point, source=point)
+    end if
+    do i = first, size(model%analysis)
+      reshaped = any(model%imperfection%analysis == i)
+      if (allocated(course%point)) reshaped = any(model%imperfection%analysis <= i)
+      if (reshaped) then
+        if (allocated(course%point)) then
+          call restore_shape(point, shaped)
+        else
+          call add_imperfections(i, course%modes, shaped, error)
+          if (allocated(error)) return
+        end if
         call solver%free()
         call system%free()
         call set_up(shaped, system, solver, iterate, recorder, error)
         if (allocated(error)) return
         level = 0
       end if
+      if (i == first) call mark_timed(model, first, system)
       call recorder%begin(i, model%analysis(i), error)
       if (allocated(error)) return
       if (size(model%imperfection) > 0) then
@@ -130,8 +150,26 @@ contains
       call recorder%finish(.not. allocated(error), second)
       if (.not. allocated(error) .and. allocated(second)) call move_alloc(second, error)
       if (allocated(error)) return
+      if (allocated(course%point)) deallocate (course%point)
     end do
   end subroutine run_in_order
+
+  !> Patterns that motions in time before analysis number `first` have applied, since the last
+  !> imperfection: of a run that goes on.
+  pure subroutine mark_timed(model, first, system)
+    type(model_t), intent(in) :: model
+    integer, intent(in) :: first
+    type(system_t), intent(inout) :: system
+    integer :: i
+
+    do i = 1, first - 1
+      if (any(model%imperfection%analysis == i)) system%timed = .false.
+      associate (a => model%analysis(i))
+        if (a%kind == analysis_transient .and. a%pattern > 0) system%timed(a%pattern) = .true.
+      end associate
+    end do
+    if (any(model%imperfection%analysis == first)) system%timed = .false.
+  end subroutine mark_timed
 
   !> Run one analysis.
   subroutine run_one(model, system, solver, analysis, level, iterate, recorder, course, error)
@@ -154,7 +192,7 @@ contains
     case (analysis_transient)
       if (analysis%pattern > 0) system%timed(analysis%pattern) = .true.
       call run_transient(model, system, analysis, course%time, level, iterate, course%flow, &
-                         recorder, error)
+                         recorder, error, course%point)
     case (analysis_kinematic, analysis_inverse)
       if (analysis%pattern > 0) system%timed(analysis%pattern) = .true.
       call run_kinematic(model, system, analysis, course%time, level, iterate, course%flow, &

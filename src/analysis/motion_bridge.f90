@@ -8,7 +8,7 @@ module motion_bridge
   use nodal_state, only: state_t, node_coordinates
   use rotation, only: turned, rotation_vector, cross
   use dynamic_equilibrium, only: dynamics_t
-  use motion_times, only: instant_t
+  use motion_instant, only: instant_t
   implicit none
   private
 

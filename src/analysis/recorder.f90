@@ -7,6 +7,7 @@ module recorder
   use model_data, only: analysis_t
   use system_results, only: results_t
   use mode_results, only: modes_t, mode_lines
+  use restart_point, only: point_t
   implicit none
   private
 
@@ -52,6 +53,8 @@ module recorder
     procedure :: critical_point
     procedure :: modes
     procedure :: compliance
+    procedure :: wants_point
+    procedure :: keep_point
     procedure(begin_interface), deferred :: begin
     procedure(iteration_interface), deferred :: iteration
     procedure(remark_interface), deferred :: remark
@@ -170,6 +173,24 @@ contains
     call self%remark(critical_line(point))
     if (point%step < 0) call fail(error, exit_solve, "a critical point without a step")
   end subroutine critical_point
+
+  !> Whether it is time for a restart point; never, unless a recorder keeps them.
+  logical function wants_point(self)
+    class(recorder_t), intent(inout) :: self
+
+    wants_point = .not. same_type_as(self, self)
+  end function wants_point
+
+  !> Where the analysis stands behind the last recorded step: keep it in place of the last one.
+  subroutine keep_point(self, point, error)
+    class(recorder_t), intent(inout) :: self
+    type(point_t), intent(in) :: point
+    type(error_t), allocatable, intent(out) :: error
+
+    if (self%wants_point() .and. point%states < 1) then
+      call fail(error, exit_solve, "a restart point without a state")
+    end if
+  end subroutine keep_point
 
   !> A critical point in one line.
   function critical_line(point) result(line)

@@ -5,7 +5,7 @@ module test_motion_bridge
   use nodal_state, only: new_state
   use rotation, only: turned, rotation_matrix, cross, no_rotation
   use dynamic_equilibrium, only: dynamics_t
-  use motion_times, only: instant_t
+  use motion_instant, only: instant_t
   use motion_bridge, only: bridge, increment_between
   implicit none
   private
