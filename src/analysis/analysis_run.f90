@@ -4,13 +4,13 @@ module analysis_run
   use errors, only: error_t, fail, exit_deck, exit_io
   use text, only: to_text
   use model_data, only: model_t, analysis_t, control_arc, analysis_static, analysis_buckling, &
-                        analysis_eigen, analysis_transient, analysis_compliance, analysis_names
+                        analysis_eigen, analysis_transient, analysis_names
   use linalg_solver, only: solver_t
   use system_data, only: system_t
   use system_build, only: build_system, find_system_pattern
-  use system_assembly, only: iterate_t, new_iterate, assemble
-  use system_constraints, only: drop_redundant, free_motions
-  use system_names, only: coordinate_name, strain_name
+  use system_assembly, only: iterate_t, new_iterate
+  use nodal_state, only: state_t, new_state, node_coordinates
+  use model_soundness, only: warn_of_redundant, refuse_free_motion, needs_structure
   use analysis_static, only: run_static
   use analysis_arc, only: run_arc
   use mode_results, only: modes_t
@@ -57,14 +57,18 @@ contains
     type(iterate_t), intent(out) :: iterate
     class(recorder_t), intent(inout) :: recorder
     type(error_t), allocatable, intent(out) :: error
+    type(state_t) :: state
 
     call check_memory(size(model%member), error)
     if (allocated(error)) return
     call build_system(model, system)
-    call warn_of_redundant(model, system, recorder, error)
+    call new_state(system%nodes, system%coordinates - node_coordinates*system%nodes, &
+                   system%angles, state)
+    call warn_of_redundant(model, system, state, recorder, error)
     if (allocated(error)) return
     call find_system_pattern(system)
     call new_iterate(system, iterate)
+    iterate%state = state
     call solver%prepare(system%equations(), system%pattern%row, system%pattern%column, &
                         system%pattern%symmetric, error)
     if (allocated(error) .or. .not. needs_structure(model)) return
@@ -72,18 +76,6 @@ contains
     if (any(model%analysis%kind /= analysis_static)) return
     deallocate (system%pattern%row, system%pattern%column)  ! the solver has its own
   end subroutine set_up
-
-  !> Whether an analysis needs a structure: EIGEN and motions in time do not.
-  pure logical function needs_structure(model)
-    type(model_t), intent(in) :: model
-    integer :: i
-
-    needs_structure = .false.
-    do i = 1, size(model%analysis)
-      needs_structure = needs_structure .or. any(model%analysis(i)%kind == &
-        [analysis_static, analysis_buckling, analysis_compliance])
-    end do
-  end function needs_structure
 
   subroutine run_in_order(model, system, solver, iterate, recorder, error)
     type(model_t), intent(in) :: model
@@ -171,54 +163,5 @@ contains
     if (status /= 0) call fail(error, exit_io, "there is not enough memory for "// &
                                to_text(elements)//" elements")
   end subroutine check_memory
-
-  !> Redundant constraints that agree are left out, with a warning for each.
-  subroutine warn_of_redundant(model, system, recorder, error)
-    type(model_t), intent(in) :: model
-    type(system_t), intent(inout) :: system
-    class(recorder_t), intent(inout) :: recorder
-    type(error_t), allocatable, intent(out) :: error
-    integer, allocatable :: dropped(:)
-    integer :: i
-
-    call drop_redundant(system, dropped, error)
-    if (allocated(error)) return
-    do i = 1, size(dropped)
-      call recorder%remark("warning: "//strain_name(model, system, dropped(i))// &
-                           " is fixed, but other constraints already see to that;"// &
-                           " the model is overconstrained")
-    end do
-  end subroutine warn_of_redundant
-
-  !> A structure must resist every motion: free ones are named by node and coordinate.
-  subroutine refuse_free_motion(model, system, solver, iterate, error)
-    type(model_t), intent(in) :: model
-    type(system_t), intent(in) :: system
-    type(solver_t), intent(inout) :: solver
-    type(iterate_t), intent(inout) :: iterate
-    type(error_t), allocatable, intent(out) :: error
-    integer, allocatable :: free(:)
-    character(len=:), allocatable :: list
-    real(wp) :: level(size(model%pattern))
-    integer :: i
-
-    if (system%unknowns == 0) then
-      call fail(error, exit_deck, "nothing can move: every coordinate is fixed")
-      return
-    end if
-    level = 0
-    call assemble(system, level, iterate)
-    call solver%factorize(iterate%values, error)
-    if (allocated(error)) return
-    if (size(solver%null_pivots()) == 0) return
-    call free_motions(system, iterate, solver, free, error)
-    if (allocated(error) .or. size(free) == 0) return
-    list = coordinate_name(model, free(1))
-    do i = 2, size(free)
-      list = list//", "//coordinate_name(model, free(i))
-    end do
-    call fail(error, exit_deck, "the model can move freely: "//list// &
-              "; FIX it or connect it, STATIC needs a structure")
-  end subroutine refuse_free_motion
 
 end module analysis_run
