@@ -5,7 +5,7 @@ module app_commands
   use text, only: string_t, upper, quoted, plural, newline, nearest_word
   use program_version, only: program_name, version
   use diagnostics, only: report_t
-  use model_data, only: model_t, analysis_t, analysis_kind_check => analysis_check
+  use model_data, only: model_t, analysis_kind_check => analysis_check
   use deck_reader, only: read_deck
   use deck_keywords, only: keywords
   use deck_modes, only: mode_check, mode_static
@@ -184,15 +184,19 @@ contains
     type(error_t), allocatable, intent(out) :: error
     type(run_recorder_t) :: recorder
     type(run_options_t) :: options
-    type(analysis_t) :: analysis
+    type(model_t) :: shown
     type(error_t), allocatable :: second
 
     call get_options(command, options, error)
     if (allocated(error)) return
     options%level = log_quiet
-    analysis%kind = analysis_kind_check
-    call recorder%open(options, model, error)
-    if (.not. allocated(error)) call recorder%begin(1, analysis, error)
+    shown = model
+    deallocate (shown%analysis)
+    allocate (shown%analysis(1))
+    shown%analysis(1)%kind = analysis_kind_check
+    shown%analysis(1)%modes = check%modes%modes
+    call recorder%open(options, shown, error)
+    if (.not. allocated(error)) call recorder%begin(1, shown%analysis(1), error)
     if (.not. allocated(error)) call recorder%modes(check%modes, error)
     if (.not. allocated(error)) call recorder%finish(.true., error)
     call recorder%close(.not. allocated(error), second)

@@ -20,7 +20,7 @@ module system_mobility
     integer :: coordinate = 0              !< stands for the motion: 1 in it, 0 in the others
     integer, allocatable :: moves(:)       !< coordinates of nodes, the largest first
     integer, allocatable :: strain(:)      !< released ones that change
-    real(wp), allocatable :: shape(:)      !< by coordinate; lengths of the model, radians, scaled back
+    real(wp), allocatable :: shape(:)      !< by coordinate [L], radians, [1/L]
   end type free_motion_t
 
   !> Smaller parts of a motion are round-off.
