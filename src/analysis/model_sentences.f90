@@ -1,8 +1,7 @@
 !> What is wrong or strange with a model, in sentences that name the place.
 module model_sentences
-  use kinds, only: wp
-  use text, only: string_t, to_text, plural
-  use model_data, only: model_t, mode_flexible
+  use text, only: string_t, to_text
+  use model_data, only: model_t
   use nodal_state, only: node_coordinates
   use system_data, only: system_t
   use system_names, only: node_name, coordinate_name, strain_name, element_number, &
@@ -200,15 +199,15 @@ contains
     type(string_t), intent(in) :: names(:)
     integer, intent(in) :: most, all   !< so many are shown of so many
     character(len=:), allocatable :: list
-    integer :: i
+    integer :: i, shown
 
+    shown = min(most, size(names))
     list = ""
-    do i = 1, min(most, size(names))
+    do i = 1, shown
       if (i > 1) list = list//", "
       list = list//names(i)%s
     end do
-    if (all > min(most, size(names))) list = list//" and "//to_text(all - min(most, size(names)))// &
-                                             " more"
+    if (all > shown) list = list//" and "//to_text(all - shown)//" more"
   end function listed
 
 end module model_sentences

@@ -97,7 +97,7 @@ contains
     if (allocated(error) .or. size(found) == 0) return
     list = "the model can move freely: "
     do i = 1, min(most_motions, size(found))
-      if (i > 1) list = list//". Likewise "
+      if (i > 1) list = list//"; and "
       list = list//motion_sentence(model, system, found(i))
     end do
     if (size(found) > most_motions) list = list//"; and "// &

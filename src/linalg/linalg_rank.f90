@@ -41,7 +41,8 @@ contains
         if (any(null > 0)) cycle
       end associate
       if (all(left_out)) exit
-      call hidden_vectors(columns, row, column, values, left_out, tolerance, solver, y, found, error)
+      call hidden_vectors(columns, row, column, values, left_out, tolerance, solver, y, found, &
+                          error)
       if (allocated(error) .or. found == 0) exit
       call leave_out(y(:, :found), left_out)
     end do

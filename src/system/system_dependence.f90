@@ -138,8 +138,8 @@ contains
 
     do i = 1, size(model%analysis)
       associate (analysis => model%analysis(i))
-        if (any(time_analyses == analysis%kind) .and. analysis%pattern > 0) &
-          timed(analysis%pattern) = .true.
+        if (.not. any(time_analyses == analysis%kind) .or. analysis%pattern == 0) cycle
+        timed(analysis%pattern) = .true.
       end associate
     end do
   end subroutine mark_timed
