@@ -81,7 +81,15 @@ contains
     write (unit, "(a)") &
       "spar check DECK [options]    read, check and explain a deck; exit status 3 if unsound", &
       "", &
-      "  -D NAME=VALUE      value of a name, in place of the deck's SET; may be repeated"
+      "  -D NAME=VALUE      value of a name, in place of the deck's SET; may be repeated", &
+      "  -o OUT.h5          result file for the shapes of the free motions; else none is written", &
+      "  --no-vtk           leave out their drawing for ParaView (/VTKHDF)", &
+      "  --no-overwrite     refuse to replace an existing result file", &
+      "  --json             as JSON, in full precision", &
+      "", &
+      "Unsound is a model whose analyses cannot run: with free motions where there is STATIC,", &
+      "BUCKLING, COMPLIANCE, KINEMATIC or INVERSE, or with prescribed motions that contradict", &
+      "each other. Constraints that repeat others are named, with a release that would help."
   end subroutine print_check
 
   subroutine print_section(unit)

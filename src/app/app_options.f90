@@ -193,7 +193,8 @@ contains
       options = [character(len=14) :: "-h", "--help", "-D", "-o", "--no-overwrite", "--quiet", &
                  "--verbose", "--no-progress", "--no-vtk", "--mode"]
     case ("check")
-      options = [character(len=14) :: "-h", "--help", "-D"]
+      options = [character(len=14) :: "-h", "--help", "-D", "-o", "--no-overwrite", "--no-vtk", &
+                 "--json"]
     case ("section")
       options = [character(len=14) :: "-h", "--help", "-D", "--json"]
     case ("compare")

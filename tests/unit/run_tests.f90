@@ -20,6 +20,7 @@ program run_tests
   use test_beamw_inertia, only: run_beamw_inertia_tests
   use test_inertia_tangent, only: run_inertia_tangent_tests
   use test_rotating_inertia, only: run_rotating_inertia_tests
+  use test_check, only: run_check_tests
   use test_column_vibration, only: run_column_vibration_tests
   use test_static, only: run_static_tests
   use test_dead_loads, only: run_dead_loads_tests
@@ -74,6 +75,7 @@ program run_tests
   call run_start_assembly_tests()
   call run_start_velocity_tests()
   call run_limits_tests()
+  call run_check_tests()
   call run_path_tests()
   call run_stability_tests()
   call run_linalg_eigen_tests()
