@@ -25,7 +25,7 @@ module analysis_kinematic
                            is_smooth
   use motion_times, only: number_of_stops, is_output, instant_t, remember, go_back
   use motion_bridge, only: bridge, increment_between
-  use energy_account, only: account_t, open_account, enter_step, motion_results, rate_results
+  use energy_account, only: account_t, open_account, enter_step, motion_results
   use recorder, only: recorder_t, step_t
   implicit none
   private
@@ -355,6 +355,7 @@ contains
     call go_back(before, course%time, course%level, driven%motion)
   end subroutine insist
 
+  !> The forces of KINEMATIC are without inertia: there the energies lack balance by the kinetic one.
   subroutine keep(model, driven, course, recorder, error)
     type(model_t), intent(in) :: model
     type(driven_t), intent(inout) :: driven
@@ -365,11 +366,7 @@ contains
 
     associate (motion => driven%motion)
       call strain_rates(motion%system, motion%iterate, motion%flow%velocity, motion%iterate%rate)
-      if (driven%inertia) then
-        call motion_results(model, motion, course%account, results)
-      else
-        call rate_results(model, motion, results)
-      end if
+      call motion_results(model, motion, course%account, results)
     end associate
     call recorder%step(course%record, results, error)
   end subroutine keep
