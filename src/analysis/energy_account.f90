@@ -10,7 +10,7 @@ module energy_account
   implicit none
   private
 
-  public :: account_t, open_account, enter_step, motion_results
+  public :: account_t, open_account, enter_step, motion_results, rate_results
 
   !> Energies at the start, works since then [F L], and what the next step's trapezes begin with.
   type :: account_t
@@ -86,21 +86,9 @@ contains
     type(account_t), intent(in) :: account
     type(results_t), intent(out) :: results
     real(wp) :: kinetic, strain
-    integer :: n, i, j, k
 
-    call get_results(model, motion%system, motion%iterate, results)
-    n = node_coordinates*motion%system%nodes
-    results%velocity = reshape(motion%flow%velocity(:n), [node_coordinates, motion%system%nodes])
-    results%acceleration = reshape(motion%flow%acceleration(:n), &
-                                   [node_coordinates, motion%system%nodes])
-    allocate (results%joint_rate(joint_strains, motion%system%joints), results%momentum(6))
-    results%joint_rate = 0
-    do j = 1, motion%system%joints
-      k = motion%system%first(motion%system%members + j)
-      do i = 1, motion%system%element(motion%system%members + j)%e%strains
-        results%joint_rate(i, j) = motion%iterate%rate(k + i)
-      end do
-    end do
+    call rate_results(model, motion, results)
+    allocate (results%momentum(6))
     call momentum(motion%system, motion%masses, motion%iterate%state, motion%flow%velocity, &
                   kinetic, results%momentum)
     strain = strain_energy(motion)
@@ -108,5 +96,27 @@ contains
                       kinetic + strain + account%dissipated - account%opening - account%loads &
                       - account%motion]
   end subroutine motion_results
+
+  !> Results of an equilibrium and of the rates.
+  subroutine rate_results(model, motion, results)
+    type(model_t), intent(in) :: model
+    type(dynamics_t), intent(in) :: motion
+    type(results_t), intent(out) :: results
+    integer :: n, i, j, k
+
+    call get_results(model, motion%system, motion%iterate, results)
+    n = node_coordinates*motion%system%nodes
+    results%velocity = reshape(motion%flow%velocity(:n), [node_coordinates, motion%system%nodes])
+    results%acceleration = reshape(motion%flow%acceleration(:n), &
+                                   [node_coordinates, motion%system%nodes])
+    allocate (results%joint_rate(joint_strains, motion%system%joints))
+    results%joint_rate = 0
+    do j = 1, motion%system%joints
+      k = motion%system%first(motion%system%members + j)
+      do i = 1, motion%system%element(motion%system%members + j)%e%strains
+        results%joint_rate(i, j) = motion%iterate%rate(k + i)
+      end do
+    end do
+  end subroutine rate_results
 
 end module energy_account
