@@ -136,7 +136,7 @@ contains
       if (.not. is_output(analysis, stop, stops, span)) cycle
       course%record%step = course%record%step + 1
       course%record%time = course%time
-      course%record%size = course%time - before%time
+      course%record%size = span/stops
       call keep(model, driven, course, recorder, error)
     end do
   end subroutine march
