@@ -355,7 +355,7 @@ contains
     call go_back(before, course%time, course%level, driven%motion)
   end subroutine insist
 
-  !> The forces of KINEMATIC are without inertia: there the kinetic energy is missing in the balance.
+  !> Forces of KINEMATIC are without inertia: the balance of energies lacks the kinetic one.
   subroutine keep(model, driven, course, recorder, error)
     type(model_t), intent(in) :: model
     type(driven_t), intent(inout) :: driven
