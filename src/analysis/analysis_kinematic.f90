@@ -135,7 +135,7 @@ contains
       if (.not. grid%is_regular(stop) .and. stop < grid%stops) cycle
       course%record%step = course%record%step + 1
       course%record%time = course%time
-      course%record%size = span/stops
+      course%record%size = grid%interval
       call keep(model, driven, course, recorder, error)
     end do
   end subroutine march

@@ -41,8 +41,8 @@ module analysis_run
 
 contains
 
-  !> Build the system, check that it can stand, run all analyses; from a restart `point`, if there is
-  !> one, those that are left.
+  !> Build the system, check that it can stand, run all analyses; from a restart `point`, if there
+  !> is one, those that are left.
   subroutine run_analyses(model, recorder, error, point)
     type(model_t), intent(in) :: model
     class(recorder_t), intent(inout) :: recorder

@@ -186,7 +186,7 @@ contains
     call inspect(cases//"double_pendulum.deck", 0, report)
     call expect(word(member(report, "refusal")) == "", "TRANSIENT may have free motions")
     one = elements(member(report, "motions"), 2)
-    call expect(member(one, "released") == "[""element 4 mode 1 of HINGE""]", "the lower hinge")
+    call expect(member(one, "released") == "[""element 4 mode 1 (hinge)""]", "the lower hinge")
     call expect(index(member(one, "coordinates"), "node 2 ") == 0, "the upper bob stands")
     allocate (value, source=numbers(member(one, "values")))
     call expect(size(value) == 3, "node 3 and the rotations of both ends of the lower beam")
@@ -194,7 +194,7 @@ contains
     call expect_text(outcome%output, "INPUTE 4 1 drive it")
     call run_spar("run "//cases//"four_bar.deck -o "//scratch("four_bar.h5"), outcome)
     call expect(outcome%status == 3, "run refuses a mechanism under STATIC")
-    call expect_text(outcome%errors, "by element 4 mode 1 of HINGE")
+    call expect_text(outcome%errors, "by element 4 mode 1 (hinge)")
     call expect_text(outcome%errors, "STATIC needs a structure")
   end subroutine test_motions
 
@@ -273,15 +273,16 @@ contains
     call expect_number(report, "constraints", "redundant", 1, "lengths that agree")
     call expect(word(member(report, "contradiction")) == "", "no contradiction")
     call inspect("-D third=0.2 "//cases//"lengths.deck", 3, report, errors)
-    call expect_text(errors, "the motions prescribed for element 1 mode 1 of TRUSS, element 3 "// &
-                     "mode 1 of TRUSS contradict each other: element 2 mode 1 of TRUSS connect")
+    call expect_text(errors, "the motions prescribed for element 1 mode 1 (elongation), "// &
+                     "element 3 mode 1 (elongation) contradict each other: element 2 mode 1 "// &
+                     "(elongation) connect")
     call expect_text(report, """contradiction"": ""the motions")
     call run_spar("run -D third=0.2 "//cases//"lengths.deck -o "//scratch("lengths.h5"), outcome)
     call expect(outcome%status == 3, "status 3 of the run")
     call expect_text(outcome%errors, "contradict each other")
     call run_spar("run "//cases//"lengths.deck -o "//scratch("lengths.h5"), outcome)
     call expect(outcome%status == 0, "lengths that agree are solved: "//outcome%errors)
-    call expect_text(outcome%errors, "warning: overconstrained once: element 1 mode 1 of TRUSS")
+    call expect_text(outcome%errors, "warning: overconstrained once: element 1 mode 1 (elongation)")
     call inspect("-D first=0 "//cases//"lengths.deck", 3, report, errors)
 
     call read_text(cases//"lengths.deck", text)
