@@ -135,7 +135,9 @@ contains
         error(k) = abs(atan2(d(1) - 1, -d(2)) - exact(1))
       end associate
     end do
-    write (*, "(a, 6es10.2, i6)") "DEBUG adaptive", error, motion%refused
+    call expect(all(error(2:) < error(:5)), "a tenth of the tolerance has a smaller error")
+    call expect_close(log10(error(2:3)/error(5:6)), [2.0_wp, 2.0_wp], 0.4_wp, &
+                      "a thousandth has a hundredth of the error")
     call expect(motion%refused > 0, "refused steps are counted")
   end subroutine adaptive
 
