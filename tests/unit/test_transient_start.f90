@@ -113,10 +113,10 @@ contains
 
     do k = 1, 3
       call follow("top", motion, model, [setting("theta", theta(k)), setting("w", rate(k)), &
-                                         setting("end", 0.5_wp)])
+                                         setting("h", 2.5e-4_wp), setting("end", 0.5_wp)])
       if (motion%steps < 2) return
       associate (r => motion%results(motion%steps), start => model%node(2)%position)
-        angle = atan2(r%displacement(2, 2), r%displacement(1, 2) + start(1))
+        angle = modulo(atan2(r%displacement(2, 2), r%displacement(1, 2) + start(1)), 2*pi)
         call expect_close(angle/(0.5_wp*rate(k)), 1.0_wp, 1.0e-4_wp, "precession")
         call expect_close(r%displacement(3, 2), 0.0_wp, 1.0e-4_wp, "height")
       end associate
@@ -129,26 +129,29 @@ contains
   subroutine slider_crank()
     type(motion_t) :: motion
     type(model_t) :: model
-    real(wp) :: most, total
-    integer :: i
+    real(wp) :: most(2), total
+    integer :: i, k
 
-    call follow("slider_crank", motion, model, [setting("h", 1.0e-3_wp)])
-    if (motion%steps < 2) return
-    associate (r => motion%results(1))
-      call expect_close(r%velocity(1, 3), 0.24_wp, 1.0e-10_wp, "the slider's first velocity")
-      call expect_close(r%velocity(4:6, 5), [1.92_wp, -0.96_wp, 0.48_wp], 1.0e-9_wp, &
-                        "the rod's first angular velocity")
-      total = r%energy(1)
-      call expect_close(total, energy(0.0_wp, 6.0_wp), 1.0e-9_wp, "the first energy")
-    end associate
-    most = 0
-    do i = 1, motion%steps
-      associate (r => motion%results(i))
-        most = max(most, abs(energy(r%joint_strain(1, 1), r%joint_rate(1, 1)) - total)/total)
+    do k = 1, 2
+      call follow("slider_crank", motion, model, [setting("h", 1.0e-3_wp/k)])
+      if (motion%steps < 2) return
+      associate (r => motion%results(1))
+        call expect_close(r%velocity(1, 3), 0.24_wp, 1.0e-10_wp, "the slider's first velocity")
+        call expect_close(r%velocity(4:6, 5), [1.92_wp, -0.96_wp, 0.48_wp], 1.0e-9_wp, &
+                          "the rod's first angular velocity")
+        total = r%energy(1)
+        call expect_close(total, energy(0.0_wp, 6.0_wp), 1.0e-9_wp, "the first energy")
       end associate
+      most(k) = 0
+      do i = 1, motion%steps
+        associate (r => motion%results(i))
+          most(k) = max(most(k), abs(energy(r%joint_strain(1, 1), r%joint_rate(1, 1))/total - 1))
+        end associate
+      end do
     end do
     call expect(motion%results(motion%steps)%joint_strain(1, 1) > pi, "half a turn and more")
-    call expect_close(most, 0.0_wp, 2.0e-3_wp, "energy by the crank's angle and rate")
+    call expect_close(most(2), 0.0_wp, 2.0e-3_wp, "energy by the crank's angle and rate")
+    call expect(most(2) < 0.3_wp*most(1), "what is missing goes with h**2")
   end subroutine slider_crank
 
   !> Kinetic energy and height's energy above the start, of crank, rod and slider.
