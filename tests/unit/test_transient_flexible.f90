@@ -64,8 +64,8 @@ contains
     got = [(2*asin(motion%results(motion%at(times(i)))%euler(2, 11)), i=1, 5)]
     call expect_close(got/maxval(wanted), wanted/maxval(wanted), 5.0e-3_wp, "rotation of the middle")
     call expect_close(got(:4)/wanted(:4), spread(1.0_wp, 1, 4), 0.01_wp, "rotation over the series")
-    call expect_close(minval(abs(motion%frequency/40.231294125005405_wp - 1)), 0.0_wp, 1.0e-3_wp, &
-                      "a frequency of EIGEN")
+    call expect(any(abs(motion%frequency/40.231294125005405_wp - 1) < 1.0e-3_wp), &
+                "that EIGEN finds the frequency of the first torsion")
   end subroutine step_torque
 
   !> Simo and Vu-Quoc 1986; another program for the curve, to 2 % of the largest deflection.
