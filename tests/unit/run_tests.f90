@@ -32,6 +32,10 @@ program run_tests
   use test_linalg_eigen, only: run_linalg_eigen_tests
   use test_buckling, only: run_buckling_tests
   use test_eigen, only: run_eigen_tests
+  use test_transient_rigid, only: run_transient_rigid_tests
+  use test_transient_flexible, only: run_transient_flexible_tests
+  use test_transient_power, only: run_transient_power_tests
+  use test_transient_start, only: run_transient_start_tests
   use test_output_hdf5, only: run_output_hdf5_tests
   use test_output_results, only: run_output_results_tests
   use test_output_compare, only: run_output_compare_tests
@@ -81,6 +85,10 @@ program run_tests
   call run_linalg_eigen_tests()
   call run_buckling_tests()
   call run_eigen_tests()
+  call run_transient_rigid_tests()
+  call run_transient_flexible_tests()
+  call run_transient_power_tests()
+  call run_transient_start_tests()
   call run_output_hdf5_tests()
   call run_output_results_tests()
   call run_output_compare_tests()
