@@ -155,6 +155,10 @@ contains
       end if
       summary%in_time = self%in_time
     end associate
+    if (self%in_time .and. .not. self%last%time < self%end_time) then
+      call say(self, "          is already at its end")
+      return
+    end if
     if (any([mode_analyses, analysis_compliance] == analysis%kind)) return
     if (self%level == log_verbose) then
       call say(self, "    step   "//progress_name(self)//"   iteration   residual   increment")
