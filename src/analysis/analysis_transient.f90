@@ -125,11 +125,11 @@ contains
         record%time = time
         call keep(model, motion, account, recorder, record, error)
         if (allocated(error)) return
-        if (recorder%wants_point()) call leave_point(error)
-        if (allocated(error)) return
       end if
       record%iterations = 0
       record%cutbacks = 0
+      if (recorder%wants_point()) call leave_point(error)
+      if (allocated(error)) return
       stop = grid%next(time)
     end do
     if (whole) call leave_point(second)

@@ -12,6 +12,7 @@ module app_commands
   use deck_manual, only: list_keywords, describe_keyword, keywords_markdown
   use analysis_run, only: run_analyses
   use analysis_check, only: check_t, check_model
+  use restart_point, only: point_t
   use output_log, only: log_quiet
   use output_check, only: print_check, print_check_json
   use output_constants, only: print_section, print_sections_json
@@ -113,6 +114,7 @@ contains
     type(model_t) :: model
     type(run_recorder_t) :: recorder
     type(run_options_t) :: options
+    type(point_t), allocatable :: point
     type(error_t), allocatable :: second
 
     if (command%mode == mode_check) then
@@ -123,7 +125,8 @@ contains
     if (.not. allocated(error)) call load_deck(command, model, error)
     if (.not. allocated(error)) call recorder%open(options, model, error)
     if (allocated(error)) return
-    call run_analyses(model, recorder, error)
+    call recorder%get_point(point)
+    call run_analyses(model, recorder, error, point)
     call recorder%close(.not. allocated(error), second)
     if (.not. allocated(error)) call move_alloc(second, error)
   end subroutine run_deck
@@ -136,6 +139,7 @@ contains
     options%deck = command%argument
     options%output = command%output
     if (options%output == "") options%output = base_name(command%argument)//".h5"
+    if (command%restart /= "") options%restart = command%restart
     options%overwrite = command%overwrite
     options%progress = command%progress
     options%drawn = command%drawn
