@@ -5,15 +5,19 @@ module beam_curve
   implicit none
   private
 
-  public :: beam_ends_t, station_t, beam_station, relative_rotation
+  public :: beam_shape_t, beam_ends_t, station_t, beam_station, relative_rotation
 
-  !> The ends of a beam now, and what it was.
-  type :: beam_ends_t
+  !> An undeformed beam.
+  type :: beam_shape_t
     real(wp) :: chord(3) = 0.0_wp           !< initial vector from p to q [L]
     real(wp) :: triad(3, 3) = 0.0_wp        !< initial axes
     real(wp) :: shear_centre(2) = 0.0_wp    !< y, z from the centroid [L]
     logical :: warps = .false.              !< carries a bimoment
     real(wp) :: shear = 0.0_wp              !< share of warping shear, Phi/(1 + Phi), theory 4
+  end type beam_shape_t
+
+  !> A beam and where its ends are now.
+  type, extends(beam_shape_t) :: beam_ends_t
     real(wp) :: displacement(3, 2) = 0.0_wp !< of p and q [L]
     real(wp) :: euler(0:3, 2) = 0.0_wp      !< Euler parameters
     real(wp) :: warping(2) = 0.0_wp         !< alpha [L^-1]

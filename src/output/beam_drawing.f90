@@ -52,7 +52,7 @@ contains
     type(posture_t), intent(in) :: posture
     type(beam_ends_t) :: ends
 
-    ends = beam%ends
+    ends%beam_shape_t = beam%ends
     ends%displacement = posture%displacement(:, beam%node(1, :))
     ends%euler = posture%euler(:, beam%node(2, :))
     if (ends%warps) ends%warping = posture%warping(beam%node(3, :))

@@ -4,7 +4,7 @@ module beam_mesh
   use kinds, only: wp
   use section_data, only: section_constants_t, section_geometry_t, section_open, section_closed
   use beamw_rigidity, only: rigidity_t, shear_compliance
-  use beam_curve, only: beam_ends_t
+  use beam_curve, only: beam_shape_t
   use model_data, only: model_t, member_t, mode_flexible
   use system_constants, only: member_rigidity
   implicit none
@@ -33,7 +33,7 @@ module beam_mesh
     integer :: node(3, 2) = 0     !< by kind and end, as in the model
     integer :: profile = 0        !< index
     integer :: first = 0          !< points of the mesh before its own
-    type(beam_ends_t) :: ends     !< undeformed
+    type(beam_shape_t) :: ends    !< undeformed
   end type beam_t
 
   type :: mesh_t
@@ -156,6 +156,7 @@ contains
     end do
   end subroutine place_points
 
+  !> There are no more cells than points and, on average, no more than four corners to a cell.
   pure subroutine make_cells(model, mesh)
     type(model_t), intent(in) :: model
     type(mesh_t), intent(inout) :: mesh
@@ -169,7 +170,10 @@ contains
         end associate
       end do
     end do
-    allocate (mesh%corners(0), mesh%offset(1), mesh%kind(0), mesh%owner(0), mesh%middle(0))
+    associate (most => size(mesh%position, 2))
+      allocate (mesh%corners(4*most), mesh%offset(most + 1), mesh%kind(most), mesh%owner(most), &
+                mesh%middle(most))
+    end associate
     mesh%offset(1) = 0
     cells = 0
     do e = 1, size(model%member)
@@ -263,15 +267,6 @@ contains
     integer :: n
 
     n = mesh%offset(cells + 1)
-    if (cells == size(mesh%kind)) then
-      mesh%offset = [mesh%offset, spread(0, 1, cells + 16)]
-      mesh%kind = [mesh%kind, spread(0, 1, cells + 16)]
-      mesh%owner = [mesh%owner, spread(0, 1, cells + 16)]
-      mesh%middle = [mesh%middle, spread(0.0_wp, 1, cells + 16)]
-    end if
-    if (n + size(points) > size(mesh%corners)) then
-      mesh%corners = [mesh%corners, spread(0, 1, n + size(points))]
-    end if
     mesh%corners(n + 1:n + size(points)) = points
     cells = cells + 1
     mesh%offset(cells + 1) = n + size(points)

@@ -5,7 +5,6 @@
 !> step's points are drawn: the points are those of the undeformed model or, for a mode about a
 !> deformed state, those of that state, written behind the former.
 module output_vtkhdf
-  use, intrinsic :: iso_fortran_env, only: i1 => int8
   use, intrinsic :: iso_c_binding, only: c_ptr, c_loc, c_char
   use hdf5, only: hid_t, hsize_t, size_t, h5oopen_f, h5oclose_f, h5acreate_f, h5awrite_f, &
                   h5aclose_f, h5screate_f, h5screate_simple_f, h5sclose_f, h5tcopy_f, h5tclose_f, &
@@ -18,6 +17,7 @@ module output_vtkhdf
   use system_results, only: results_t
   use mode_results, only: modes_t
   use output_hdf5, only: hdf5_file_t, about_t
+  use output_arrays, only: write_longs, write_bytes
   use output_tables, only: table_t
   use beam_mesh, only: mesh_t, new_mesh, line_cell
   use beam_drawing, only: posture_t, draw_motion, draw_mode, draw_forces, draw_stress
@@ -172,38 +172,17 @@ contains
     type(hdf5_file_t), intent(inout) :: file
 
     associate (mesh => self%mesh)
-      call write_long(file, "NumberOfPoints", [size(mesh%position, 2)])
-      call write_long(file, "NumberOfCells", [size(mesh%kind)])
-      call write_long(file, "NumberOfConnectivityIds", [size(mesh%corners)])
-      call write_long(file, "Connectivity", mesh%corners)
-      call write_long(file, "Offsets", mesh%offset)
-      call write_types(file, mesh%kind)
+      call write_longs(file, root//"/NumberOfPoints", [size(mesh%position, 2)])
+      call write_longs(file, root//"/NumberOfCells", [size(mesh%kind)])
+      call write_longs(file, root//"/NumberOfConnectivityIds", [size(mesh%corners)])
+      call write_longs(file, root//"/Connectivity", mesh%corners)
+      call write_longs(file, root//"/Offsets", mesh%offset)
+      call write_bytes(file, root//"/Types", mesh%kind)
       call self%point_table%start_reals(file, root//"/Points", size(mesh%position, 2, i8), &
         about_t("L", "point; X Y Z", "positions of the undeformed model"), 3)
       call self%point_table%append(file, mesh%position)
     end associate
   end subroutine write_mesh
-
-  subroutine write_long(file, name, values)
-    type(hdf5_file_t), intent(inout) :: file
-    character(len=*), intent(in) :: name
-    integer, intent(in) :: values(:)
-    type(table_t) :: table
-
-    call table%start_longs(file, root//"/"//name, size(values, kind=i8))
-    call table%append(file, int(values, i8))
-    call table%finish(file)
-  end subroutine write_long
-
-  subroutine write_types(file, kind)
-    type(hdf5_file_t), intent(inout) :: file
-    integer, intent(in) :: kind(:)
-    type(table_t) :: table
-
-    call table%start_bytes(file, root//"/Types", size(kind, kind=i8))
-    call table%append(file, int(kind, i1))
-    call table%finish(file)
-  end subroutine write_types
 
   subroutine start_fields(self, file, steps)
     type(vtk_writer_t), intent(inout) :: self
