@@ -35,7 +35,7 @@ contains
   !> The section at xi = x/l0. The line of centroids is the cubic of theory 9 with end slopes
   !> R (eX + alpha s), s = zs eY - ys eZ. The section turns evenly from end to end, is tilted until
   !> it is normal to the cubic of the shear centres, whose slopes are R eX, and twisted to the cubic
-  !> twist of theory 5 c with the mean shear strain of warping.
+  !> twist of theory 5 c with the mean shear strain of warping. At the ends it is the nodes'.
   pure function beam_station(ends, xi) result(station)
     type(beam_ends_t), intent(in) :: ends
     real(wp), intent(in) :: xi
@@ -44,6 +44,12 @@ contains
     real(wp) :: tangent(3)
     integer :: e
 
+    if (xi <= 0 .or. xi >= 1) then
+      e = merge(1, 2, xi <= 0)
+      station = station_t(ends%displacement(:, e), ends%euler(:, e), 0.0_wp)
+      if (ends%warps) station%warping = ends%warping(e)
+      return
+    end if
     length = norm2(ends%chord)
     h = [xi*(1 - xi)**2, xi**2*(3 - 2*xi), xi**2*(xi - 1)]
     d = [(1 - xi)*(1 - 3*xi), 6*xi*(1 - xi), xi*(3*xi - 2)]
