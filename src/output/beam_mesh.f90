@@ -15,9 +15,9 @@ module beam_mesh
   !> Cell types of VTK.
   integer, parameter, public :: line_cell = 3, polygon_cell = 7, quad_cell = 9
 
-  !> Pieces of a beam at most, without and with outlines, and in all, where that allows more than
-  !> one each.
-  integer, parameter :: line_segments = 4, outline_segments = 3, all_segments = 1000
+  !> Pieces of a beam at most, without and with outlines; points in all, where that allows more than
+  !> one piece each. Every point costs 60 bytes a step, and writing them a tenth of a run.
+  integer, parameter :: line_segments = 4, outline_segments = 3, all_points = 3000
 
   !> What is swept along a beam: closed polygons, or the centroid alone.
   type :: profile_t
@@ -61,11 +61,7 @@ contains
       call new_profile(model%section(e)%constants, model%section(e)%geometry, mesh%profile(e))
     end do
     call new_line(mesh%profile(size(mesh%profile)))
-    mesh%segments = line_segments
-    do e = 1, size(model%section)
-      if (size(mesh%profile(e)%last) > 0) mesh%segments = outline_segments
-    end do
-    mesh%segments = min(mesh%segments, max(1, all_segments/max(1, size(model%member))))
+    mesh%segments = pieces(model, mesh%profile)
     allocate (mesh%beam(size(model%member)))
     points = 0
     do e = 1, size(model%member)
@@ -78,6 +74,27 @@ contains
     call place_points(model, mesh)
     call make_cells(model, mesh)
   end subroutine new_mesh
+
+  !> In how many pieces a beam is drawn.
+  pure integer function pieces(model, profile)
+    type(model_t), intent(in) :: model
+    type(profile_t), intent(in) :: profile(:)   !< of the sections, and a line
+    integer :: e, corners
+
+    pieces = line_segments
+    corners = 0
+    do e = 1, size(model%member)
+      associate (section => model%member(e)%section)
+        if (section == 0) then
+          corners = corners + 1
+        else
+          corners = corners + size(profile(section)%omega)
+          if (size(profile(section)%last) > 0) pieces = outline_segments
+        end if
+      end associate
+    end do
+    pieces = max(1, min(pieces, all_points/max(1, corners) - 1))
+  end function pieces
 
   pure subroutine new_beam(model, member, beam)
     type(model_t), intent(in) :: model
