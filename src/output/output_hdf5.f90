@@ -7,7 +7,7 @@ module output_hdf5
   use hdf5, only: hid_t, hsize_t, size_t, h5dont_atexit_f, h5open_f, h5close_f, h5eset_auto_f, &
                   h5fcreate_f, h5fclose_f, h5fflush_f, h5pcreate_f, h5pclose_f, &
                   h5pset_libver_bounds_f, h5pset_fclose_degree_f, h5pset_obj_track_times_f, &
-                  h5pset_istore_k_f, h5pset_link_phase_change_f, &
+                  h5pset_link_phase_change_f, &
                   h5gcreate_f, h5gclose_f, h5oopen_f, h5oclose_f, h5aexists_f, h5adelete_f, &
                   h5acreate_f, h5awrite_f, h5aclose_f, h5screate_f, h5screate_simple_f, &
                   h5sclose_f, h5dcreate_f, h5dwrite_f, h5dclose_f, h5tcopy_f, h5tset_size_f, &
@@ -53,10 +53,6 @@ module output_hdf5
 
   integer(hsize_t), parameter :: scalar(0) = 0_hsize_t
 
-  !> Pieces of a dataset in one node of their index, halved: each node takes 550 bytes for one of
-  !> them, and most datasets of small models have few.
-  integer, parameter :: chunk_rank = 4
-
   !> Members of a group that are listed one after the other, without an index.
   integer, parameter :: most_links = 24
 
@@ -76,8 +72,6 @@ contains
     call self%check(status, "h5open_f")
     call h5eset_auto_f(0, status)
     call new_list(self, h5p_file_create_f, creation)
-    call h5pset_istore_k_f(creation, chunk_rank, status)
-    call self%check(status, "h5pset_istore_k_f")
     call h5pcreate_f(h5p_file_access_f, access, status)
     call h5pset_libver_bounds_f(access, h5f_libver_v18_f, h5f_libver_v18_f, status)
     call self%check(status, "h5pset_libver_bounds_f")
