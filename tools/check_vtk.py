@@ -25,7 +25,7 @@ from vtkmodules.vtkIOHDF import vtkHDFReader
 ROOT = Path(__file__).resolve().parents[1]
 TOLERANCE = 1e-9         # of the model's size: VTK and HDF5 keep double precision
 SINGLE = 5e-7            # of the largest value: fields kept in single precision
-STATE, MODE = 0, 1
+STATE, MODE = 0, 1       # kinds of steps; modes of critical points are modes
 LINE, POLYGON, QUAD = 3, 7, 9
 
 # What it is, deck, settings, recorded states, modes.
@@ -34,6 +34,7 @@ CASES = [
     ("post-buckling path by arc length, lines", "path/channel_arc.deck", {}, None, 0),
     ("flexural-torsional buckling modes", "drawing/column.deck", {}, 0, 3),
     ("buckling about loaded states", "buckling/preloaded.deck", {}, 1, 4),
+    ("critical point of a path", "path/bracket.deck", {}, 8, 1),
     ("roll-up to a full circle", "static/rollup.deck", {"angle": 0.7}, 10, 0),
     ("spatial bend", "static/bend45.deck", {}, 6, 0),
     ("nine kinds of sections", "../../decks/sections.deck", {}, 2, 0),
@@ -209,6 +210,7 @@ def expected_steps(groups):
         wanted += [(number, row, STATE) for row in range(len(group.get("step", ())))]
         modes = group.get("multiplier", group.get("frequency", ()))
         wanted += [(number, row, MODE) for row in range(len(modes))]
+        wanted += [(number, -int(name), MODE) for name in group.get("critical", ())]
     return wanted
 
 
@@ -264,11 +266,24 @@ def check_motion(checks, model, motion, fields, points, initial):
                 checks.below("rotation", from_vectors(rotation) - turned, 4 * SINGLE)
 
 
-def check_forces(checks, model, group, row, grid, fields):
-    """Section forces in the middle of the cells, stresses at the ends of the beams."""
+def end_forces(model, data, row, mode):
+    """Section forces at both ends of all beams, those of modes to first order (docs/theory.md)."""
     n = len(model.node)
-    at_p, at_q = (group[f"elements/section_force_{end}"][row * n:(row + 1) * n] for end in "pq")
-    largest = np.maximum(np.abs([at_p, at_q]).max(axis=(0, 1)), 1e-300)
+    rows = slice(row * n, (row + 1) * n)
+    if not mode:
+        return data["elements/section_force_p"][rows], data["elements/section_force_q"][rows]
+    s = data["modes/elements/stress"][rows].T
+    p, q = model.position[model.node[:, :, 0]].transpose(1, 0, 2)
+    length = np.linalg.norm(q - p, axis=1)
+    shared = [s[0], s[4] - s[5], s[3] - s[2], length * s[1]]
+    return (np.array([*shared, length * s[2], length * s[4], -length**2 * s[6]]).T,
+            np.array([*shared, length * s[3], length * s[5], length**2 * s[7]]).T)
+
+
+def check_forces(checks, model, ends, grid, fields):
+    """Section forces in the middle of the cells, stresses at the ends of the beams."""
+    at_p, at_q = ends
+    largest = np.maximum(np.abs(ends).max(axis=(0, 1)), 1e-30)
     owner, middle = np.empty(grid.GetNumberOfPoints(), int), np.empty(grid.GetNumberOfPoints())
     stress = fields.get("axial_stress")
     scale = max(np.abs(stress).max(), 1e-300) if stress is not None else 1.0
@@ -312,11 +327,18 @@ def check_file(path):
                         and grid.GetNumberOfCells() == file["VTKHDF/NumberOfCells"][0])
             for name, field in fields.items():
                 checks.true(f"{name} is finite", np.isfinite(field).all())
-            if "modes" in group:
+            if row < 0:
+                point = group[f"critical/{-row:04}"]
+                last = point.attrs["step"] - 2
+                about = State(model, group["nodes"], last) if last >= 0 else State(model)
+                motion = Mode(model, point, 0, about)
+            elif "modes" in group:
                 motion = Mode(model, group["modes/nodes"], row, state)
             else:
                 state = motion = State(model, group["nodes"], row)
-                check_forces(checks, model, group, row, grid, fields)
+            if row >= 0:
+                ends = end_forces(model, group, row, motion is not state)
+                check_forces(checks, model, ends, grid, fields)
             check_motion(checks, model, motion, fields, points, initial)
         checks.true("all states and modes are there, once",
                     sorted(origin) == sorted(w[:2] for w in wanted))

@@ -318,6 +318,7 @@ contains
       about_t("1", "node; RX RY RZ", "small rotation of the critical mode, global axes"))
     call self%file%write(group//"/warping", point%mode(7, :), &
       about_t("L-1", "node", "warping coordinate of the critical mode"))
+    call self%drawing%add_critical(point%mode)
     call self%file%flush(error)
   end subroutine keep_critical
 
@@ -338,7 +339,7 @@ contains
     do i = 1, merge(size(self%marker), 0, self%stepping)
       call self%marker_table(i)%finish(self%file)
     end do
-    call self%drawing%write_pending(self%file)
+    call self%drawing%end_analysis(self%file, self%number)
     if (complete) call self%file%set_number(self%group, "complete", 1)
     call self%file%flush(error)
   end subroutine finish_analysis
