@@ -38,6 +38,7 @@ CASES = [
     ("roll-up to a full circle", "static/rollup.deck", {"angle": 0.7}, 10, 0),
     ("spatial bend", "static/bend45.deck", {}, 6, 0),
     ("nine kinds of sections", "../../decks/sections.deck", {}, 2, 0),
+    ("five more kinds", "drawing/shapes.deck", {}, 2, 0),
     ("frame, two patterns", "../../decks/frame.deck", {}, 13, 0),
     ("rigid links", "../../decks/chain.deck", {}, 4, 0),
     ("many lines, one piece each", "../bench/cantilever.deck", {"n": 600, "steps": 2}, 2, 0),
