@@ -123,8 +123,7 @@ contains
     end do
   end subroutine solved
 
-  !> In decks/ or tests/cases, wrong ones apart, or in a deck within a test: with its first word and,
-  !> of a variant, the word behind the name.
+  !> In decks/ or tests/cases, wrong ones apart, or in a deck within a test.
   subroutine used()
     type(keyword_t), allocatable :: table(:)
     type(outcome_t) :: outcome
@@ -134,14 +133,30 @@ contains
     call run_shell("{ cat decks/*.deck $(ls tests/cases/*/*.deck | grep -v /wrong/);"// &
       " ls tests/unit/*.f90 | grep -v test_manual |"// &
       " xargs grep -ho '[""|][A-Z][A-Z]*[^""|]*' | cut -c 2-; } | sed 's/#.*//' |"// &
-      " awk '{ print $1; print $1, $3 }' | tr a-z A-Z | sort -u", outcome)
+      " awk '{ print $1; print $1, $2; print $1, $3 }' | sort -u", outcome)
     cards = newline//outcome%output
     allocate (table, source=keywords())
     do i = 1, size(table)
-      word = trim(table(i)%name)
+      word = trim(table(i)%name)//variant(table(i)%forms)
       call expect(index(cards, newline//word//newline) > 0, word//" stands in a deck of the tests")
     end do
   end subroutine used
+
+  !> The word that tells one variant of a keyword from others: it stands first or behind a name.
+  pure function variant(forms) result(word)
+    character(len=*), intent(in) :: forms
+    character(len=:), allocatable :: word
+    integer :: i, at, last
+
+    at = 1
+    do i = 1, 2
+      last = index(forms(at:)//" ", " ") + at - 2
+      word = " "//forms(at:last)
+      if (index(word, ":") == 0 .and. word /= "") return
+      at = min(last + 2, len(forms))
+    end do
+    word = ""
+  end function variant
 
   !> Whether a card of the deck asks for an analysis.
   pure logical function has_analysis(table, deck)
