@@ -154,10 +154,11 @@ check-validation: $(B)/spar $(VENV)/ready  ## the same runs against the numbers 
 check-vtk: $(B)/spar $(VENV)/vtk  ## read drawings of results with VTK, check every point
 	@SPAR_PROGRAM=$(B)/spar $(VENV)/bin/python3 tools/check_vtk.py
 
-bench: $(B)/spar $(B)/bench_tangent  ## measure speed and memory (tools/bench)
-	@SPAR_PROGRAM=$(B)/spar BENCH_TANGENT=$(B)/bench_tangent tools/bench
+bench: $(B)/spar $(B)/bench_tangent $(B)/bench_recorder  ## measure speed and memory (tools/bench)
+	@SPAR_PROGRAM=$(B)/spar BENCH_TANGENT=$(B)/bench_tangent \
+	BENCH_RECORDER=$(B)/bench_recorder tools/bench
 
-$(B)/bench_tangent: tests/bench/bench_tangent.f90 $(B)/libspar.a $(B)/link
+$(B)/bench_%: tests/bench/bench_%.f90 $(B)/libspar.a $(B)/link
 	$(Q)$(FC) $(FFLAGS) $(CONFIG_FLAGS) -I $(B) -o $@ $< $(B)/libspar.a $(LIBS) 2>/dev/null
 
 install: DIR = $(DESTDIR)$(PREFIX)

@@ -6,7 +6,8 @@
 
 Where a point has to be is worked out anew from /model and /analysis: at both ends of every beam
 the node's displacement and rotation carry the section's corners, and its warping moves them by
--omega alpha along the beam. The program is $SPAR_PROGRAM or build/spar. Called by `make check-vtk`,
+-omega alpha along the beam; trusses are straight between their nodes. Of motions in time some states
+are drawn only: which is worked out from their times. The program is $SPAR_PROGRAM or build/spar. Called by `make check-vtk`,
 which installs vtk, h5py and numpy.
 """
 import os
@@ -26,9 +27,10 @@ ROOT = Path(__file__).resolve().parents[1]
 TOLERANCE = 1e-9         # of the model's size: VTK and HDF5 keep double precision
 SINGLE = 5e-7            # of the largest value: fields kept in single precision
 STATE, MODE = 0, 1       # kinds of steps; modes of critical points are modes
+INTERVALS = 200          # of a motion in time at most, a state each is drawn
 LINE, POLYGON, QUAD = 3, 7, 9
 
-# What it is, deck, settings, recorded states, modes.
+# What it is, deck, settings, drawn states, modes.
 CASES = [
     ("post-buckling path of a channel, modes at its end", "drawing/channel.deck", {}, 30, 3),
     ("post-buckling path by arc length, lines", "path/channel_arc.deck", {}, None, 0),
@@ -41,6 +43,9 @@ CASES = [
     ("five more kinds", "drawing/shapes.deck", {}, 2, 0),
     ("frame, two patterns", "../../decks/frame.deck", {}, 13, 0),
     ("rigid links", "../../decks/chain.deck", {}, 4, 0),
+    ("trusses, with and without section", "drawing/braced.deck", {}, 3, 6),
+    ("motion in time, every third step drawn", "drawing/swing.deck", {}, 137, 0),
+    ("the same with steps by their error", "drawing/swing.deck", {"rule": "TOL", "value": 1e-5}, None, 0),
     ("many lines, one piece each", "../bench/cantilever.deck", {"n": 600, "steps": 2}, 2, 0),
 ]
 
@@ -90,14 +95,32 @@ class Model:
                 self.omega.append(corner_omega(drawing))
             if constants is None or constants[4] == 0 or not (status == 1).any():
                 self.omega[-1] = np.zeros(len(self.corners[-1]))
+        self.read_bars(file.get("model/joints"), dict(zip(names, file["model/sections/constants"][()]))
+                       if names else {})
+
+    def read_bars(self, joints, constants):
+        """Trusses: row of /model/joints, nodes, area (0: unknown)."""
+        self.joints = 0 if joints is None else len(joints["id"])
+        kinds = [] if joints is None else [kind.strip("\0 ") for kind in joints["type"].asstr()[()]]
+        self.bar = [j for j, kind in enumerate(kinds) if kind == "TRUSS"]
+        self.bar_node = [joints["nodes"][j, [0, 2]] for j in self.bar]
+        names = [joints["section"].asstr()[j].strip("\0") for j in self.bar]
+        self.bar_area = [constants[name][0] if name else 0.0 for name in names]
 
     def beams(self, points):
         """Element, and the points of each of its stations, (stations, corners)."""
-        first, stations = 0, points // sum(len(c) for c in self.corners)
+        first = 0
+        stations = (points - 2 * len(self.bar)) // max(1, sum(len(c) for c in self.corners))
         for e, corners in enumerate(self.corners):
             n = len(corners)
             yield e, first + np.arange(stations * n).reshape(stations, n)
             first += stations * n
+
+    def bars(self, points):
+        """Truss, and its two points: they are the last."""
+        first = points - 2 * len(self.bar)
+        for b in range(len(self.bar)):
+            yield b, first + 2 * b + np.arange(2)
 
 
 def corner_omega(drawing):
@@ -205,14 +228,28 @@ class Checks:
 
 
 def expected_steps(groups):
-    """(analysis, row, kind) of every state and mode the file holds."""
-    wanted = []
+    """(analysis, row, kind) of every state and mode that is to be drawn."""
+    wanted, start = [], 0.0
     for number, group in enumerate(groups, 1):
-        wanted += [(number, row, STATE) for row in range(len(group.get("step", ())))]
+        rows = np.arange(len(group.get("step", ())))
+        if group.attrs["kind"] in ("transient", "kinematic", "inverse"):
+            rows = drawn_rows(group["time"][()], start)
+            start = group["time"][-1]
+        wanted += [(number, row, STATE) for row in rows]
         modes = group.get("multiplier", group.get("frequency", ()))
         wanted += [(number, row, MODE) for row in range(len(modes))]
         wanted += [(number, -int(name), MODE) for name in group.get("critical", ())]
     return wanted
+
+
+def drawn_rows(time, start):
+    """Rows of a motion in time that are drawn: the first of each interval, and the last."""
+    whole, steps = (time[-1] - start) / INTERVALS, np.diff(time)
+    if np.ptp(steps[:-1]) < 1e-6 * steps[0]:  # equal, but perhaps the last
+        count = np.ceil((time[-1] - start) / steps[0] - 1e-6)
+        whole = np.ceil(count / INTERVALS) * steps[0]
+    interval = np.floor((time - start) / whole + 1e-5)
+    return np.union1d(np.unique(interval, return_index=True)[1], len(time) - 1)
 
 
 def check_cells(checks, grid, points):
@@ -232,7 +269,10 @@ def check_cells(checks, grid, points):
 
 
 def check_initial(checks, model, points):
-    """Sections stand evenly along the straight beams."""
+    """Sections stand evenly along the straight beams, trusses reach from node to node."""
+    for b, ids in model.bars(len(points)):
+        checks.below("initial points of trusses", points[ids] - model.position[model.bar_node[b]],
+                     TOLERANCE * model.size)
     for e, at in model.beams(len(points)):
         arms = model.corners[e] @ model.triad[e, 1:]
         p, q = model.position[model.node[e, :, 0]]
@@ -242,8 +282,17 @@ def check_initial(checks, model, points):
 
 
 def check_motion(checks, model, motion, fields, points, initial):
-    """Points and displacements at both ends of all beams."""
+    """Points and displacements at both ends of all beams and trusses."""
     places = points + fields["displacement"]
+    for b, ids in model.bars(len(points)):
+        nodes = model.bar_node[b]
+        base = model.position[nodes]
+        if isinstance(motion, Mode):
+            base = base + motion.about.motion[nodes]
+        checks.below("points of trusses", points[ids] - base, TOLERANCE * model.size)
+        checks.below("displacement of trusses", fields["displacement"][ids] - motion.motion[nodes],
+                     TOLERANCE * model.size)
+        checks.true("rotation of trusses", not fields["rotation"][ids].any())
     for e, at in model.beams(len(points)):
         for end in (0, 1):
             wanted = motion.moved(model, e, end)
@@ -299,10 +348,27 @@ def check_forces(checks, model, ends, grid, fields):
             if c[4] > 0:
                 wanted = wanted - b * model.omega[e] / c[4]
             checks.below("axial stress", stress[ids] - wanted, SINGLE * scale)
-    for ids, force in zip(cells_of(grid)[0], fields["section_force"]):
+    beams = grid.GetNumberOfCells() - len(model.bar)
+    for ids, force in zip(cells_of(grid)[0][:beams], fields["section_force"]):
         e, xi = owner[ids[0]], middle[ids].mean()
         checks.true("cells: of one beam", (owner[ids] == e).all())
         checks.below("section forces", (force - (1 - xi) * at_p[e] - xi * at_q[e]) / largest, SINGLE)
+
+
+def check_bars(checks, model, normal, grid, fields):
+    """Forces and stresses of trusses from the normal forces of all joints."""
+    cells, forces = cells_of(grid)[0], fields["section_force"]
+    largest = max(np.abs(normal).max(initial=0.0), 1e-30)
+    for b, ids in model.bars(grid.GetNumberOfPoints()):
+        at = b - len(model.bar)
+        checks.true("cells of trusses", list(cells[at]) == list(ids))
+        wanted = np.append(normal[model.bar[b]], np.zeros(6))
+        checks.below("forces of trusses", forces[at] - wanted, SINGLE * largest)
+        if "axial_stress" in fields:
+            area = model.bar_area[b]
+            stress = normal[model.bar[b]] / area if area > 0 else 0.0
+            checks.below("stresses of trusses", fields["axial_stress"][ids] - stress,
+                         SINGLE * max(abs(stress), 1e-30))
 
 
 def check_file(path):
@@ -340,6 +406,10 @@ def check_file(path):
             if row >= 0:
                 ends = end_forces(model, group, row, motion is not state)
                 check_forces(checks, model, ends, grid, fields)
+                normal = np.zeros(model.joints)  # modes have none
+                if motion is state and model.joints:
+                    normal = group["joints/stress"][row * model.joints:][:model.joints, 0]
+                check_bars(checks, model, normal, grid, fields)
             check_motion(checks, model, motion, fields, points, initial)
         checks.true("all states and modes are there, once",
                     sorted(origin) == sorted(w[:2] for w in wanted))

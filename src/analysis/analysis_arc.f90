@@ -16,7 +16,8 @@ module analysis_arc
   use path_control, only: control_t, arc_product
   use stability_watch, only: watch_t, start_watch, watch_step
   use branch_switch, only: lean_into_mode
-  use equilibrium_path, only: safe_t, keep_safe, go_back, newton_options, check_dropped, failure
+  use equilibrium_path, only: safe_t, keep_safe, go_back, newton_options, check_dropped, &
+                              check_angles, failure
   use recorder, only: recorder_t, step_t, iteration_t
   implicit none
   private
@@ -65,6 +66,7 @@ contains
     do step = 1, analysis%most_steps
       record = step_t(step=step)
       call take_step(model, system, solver, analysis, path, level, iterate, recorder, record, error)
+      if (.not. allocated(error)) call check_angles(model, system, level, error)
       if (.not. allocated(error)) call check_dropped(model, system, iterate, error)
       if (allocated(error)) return
       record%factor = level(analysis%pattern)

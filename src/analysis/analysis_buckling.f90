@@ -12,10 +12,9 @@ module analysis_buckling
   use linalg_eigen, only: pencil_t, pairs_t, estimate_theta
   use linalg_spectrum, only: find_spectrum, count_between
   use system_data, only: system_t
-  use system_assembly, only: iterate_t, assemble
+  use system_assembly, only: iterate_t, assemble, pattern_direction
   use system_blocks, only: half_t, new_half, fold
   use system_geometric, only: stress_increments, assemble_geometric, is_conservative
-  use system_loads, only: load_direction
   use mode_results, only: modes_t, new_modes, add_mode, unit_factor, symmetric_part
   use recorder, only: recorder_t
   implicit none
@@ -95,17 +94,11 @@ contains
     type(iterate_t), intent(in) :: iterate
     real(wp), intent(out) :: geometric(:)
     type(error_t), allocatable, intent(out) :: error
-    real(wp) :: force(system%coordinates), solution(system%equations())
-    real(wp) :: stress(size(system%multiplier))
-    integer :: k
+    real(wp) :: solution(system%equations()), stress(size(system%multiplier))
 
     call solver%factorize(iterate%values, error)
     if (allocated(error)) return
-    call load_direction(system, iterate%state, level, pattern, force)
-    solution = 0
-    do k = 1, system%coordinates
-      if (system%unknown(k) > 0) solution(system%unknown(k)) = force(k)
-    end do
+    solution = pattern_direction(system, iterate%state, level, pattern)
     call solver%solve(solution, error)
     if (allocated(error)) return
     call stress_increments(system, iterate, solution, stress)

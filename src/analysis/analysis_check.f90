@@ -5,11 +5,13 @@ module analysis_check
   use text, only: to_text, plural
   use model_data, only: model_t, mode_fixed, mode_released
   use linalg_solver, only: solver_t
+  use nodal_state, only: state_t
   use system_data, only: system_t
   use system_build, only: build_system, find_system_pattern
   use system_assembly, only: iterate_t, new_iterate, assemble
   use system_constraints, only: drop_redundant, free_motions
   use system_names, only: coordinate_name, strain_name
+  use start_assembly, only: assemble_start
   implicit none
   private
 
@@ -24,12 +26,14 @@ contains
     integer, intent(in) :: unit
     type(error_t), allocatable, intent(out) :: error
     type(system_t) :: system
+    type(state_t) :: state
     integer, allocatable :: dropped(:)
     integer :: i, constraints
 
     call build_system(model, system)
     constraints = system%multipliers
-    call drop_redundant(system, dropped, error)
+    call assemble_start(model, system, state, error)
+    if (.not. allocated(error)) call drop_redundant(system, state, dropped, error)
     if (.not. allocated(error)) then
       call print_counts(model, system, constraints, unit)
       call print_defaults(model, unit)
@@ -37,7 +41,7 @@ contains
         write (unit, "(a)") "overconstrained: "//strain_name(model, system, dropped(i))// &
           " follows from other constraints"
       end do
-      call check_motions(model, system, unit, error)
+      call check_motions(model, system, state, unit, error)
     end if
     call system%free()
   end subroutine check_model
@@ -91,9 +95,10 @@ contains
   end subroutine print_defaults
 
   !> Factorize the unloaded model and name what moves without strain.
-  subroutine check_motions(model, system, unit, error)
+  subroutine check_motions(model, system, state, unit, error)
     type(model_t), intent(in) :: model
     type(system_t), intent(inout) :: system
+    type(state_t), intent(in) :: state
     integer, intent(in) :: unit
     type(error_t), allocatable, intent(out) :: error
     type(solver_t) :: solver
@@ -105,6 +110,7 @@ contains
     if (system%unknowns == 0) return
     call find_system_pattern(system)
     call new_iterate(system, iterate)
+    iterate%state = state
     level = 0
     call assemble(system, level, iterate)
     call solver%prepare(system%equations(), system%pattern%row, system%pattern%column, &

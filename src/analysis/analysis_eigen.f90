@@ -57,9 +57,10 @@ contains
       return
     end if
     call assemble(system, level, iterate)
-    call new_masses(model, masses)
-    if (size(masses%member) == 0) then
-      call fail(error, exit_deck, "EIGEN needs mass: give RHO to a MATERIAL or EM to an element")
+    call new_masses(model, system, masses)
+    if (masses%bodies == 0) then
+      call fail(error, exit_deck, "EIGEN needs mass: give RHO to a MATERIAL, EM to an element "// &
+                "or XM to a node")
       return
     end if
     call assemble_mass(system, masses, iterate%state, mass)

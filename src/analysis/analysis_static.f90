@@ -13,8 +13,8 @@ module analysis_static
   use system_assembly, only: iterate_t
   use system_results, only: results_t, get_results
   use newton_method, only: newton_outcome_t, find_equilibrium, newton_converged, newton_interrupted
-  use equilibrium_path, only: safe_t, keep_safe, go_back, newton_options, check_dropped, failure, &
-                              reason, parameter_name
+  use equilibrium_path, only: safe_t, keep_safe, go_back, newton_options, check_dropped, &
+                              check_angles, failure, reason, parameter_name
   use path_control, only: control_t
   use stability_watch, only: watch_t, start_watch, watch_step
   use system_measure, only: new_measure
@@ -58,6 +58,7 @@ contains
       call reach(model, system, solver, analysis, control, &
                  start + (end - start)*step/analysis%steps, watch, level, iterate, recorder, &
                  record, error)
+      if (.not. allocated(error)) call check_angles(model, system, level, error)
       if (.not. allocated(error)) call check_dropped(model, system, iterate, error)
       if (allocated(error)) return
       if (analysis%pattern > 0) record%factor = level(analysis%pattern)
@@ -124,6 +125,8 @@ contains
       if (control%kind == control_load .and. control%pattern > 0) then
         level(control%pattern) = control%target
       end if
+      call check_angles(model, system, level, error)
+      if (allocated(error)) return
       call find_equilibrium(system, solver, newton_options(analysis), control, level, &
                             iteration_t(step=record%step, factor=control%target), iterate, &
                             recorder, outcome, error)

@@ -1,19 +1,20 @@
 !> What all ways along an equilibrium path share: states to come back to, options, messages.
 module equilibrium_path
   use kinds, only: wp
-  use errors, only: error_t, fail, exit_solve
+  use errors, only: error_t, fail, exit_deck, exit_solve
   use text, only: to_text, plural
   use model_data, only: model_t, analysis_t, control_displacement
   use nodal_state, only: state_t
   use system_data, only: system_t
   use system_assembly, only: iterate_t
+  use system_motion, only: overturned
   use system_names, only: coordinate_name, strain_name, member_name
   use newton_method, only: newton_t, newton_outcome_t, newton_slow, newton_distorted
   use recorder, only: step_t
   implicit none
   private
 
-  public :: safe_t, keep_safe, go_back, newton_options, check_dropped
+  public :: safe_t, keep_safe, go_back, newton_options, check_dropped, check_angles
   public :: failure, reason, parameter_name
 
   !> A state to come back to.
@@ -103,13 +104,29 @@ contains
 
     do k = 1, size(system%dropped)
       if (.not. system%dropped(k)) cycle
-      if (abs(iterate%strain(k)) <= 1.0e-8_wp*system%length) cycle
+      if (abs(iterate%strain(k) - iterate%target(k)) <= 1.0e-8_wp*system%length) cycle
       call fail(error, exit_solve, "the constraints contradict each other: "// &
                 strain_name(model, system, k)//", redundant at the start, is off by "// &
-                to_text(iterate%strain(k), 3))
+                to_text(iterate%strain(k) - iterate%target(k), 3))
       return
     end do
   end subroutine check_dropped
+
+  !> Motions must not turn a node by a half turn or more: its Euler parameters cannot follow.
+  subroutine check_angles(model, system, level, error)
+    type(model_t), intent(in) :: model
+    type(system_t), intent(in) :: system
+    real(wp), intent(in) :: level(:)
+    type(error_t), allocatable, intent(out) :: error
+    real(wp) :: angle
+    integer :: strain
+
+    call overturned(system, level, strain, angle)
+    if (strain == 0) return
+    call fail(error, exit_deck, strain_name(model, system, strain)//" is prescribed an angle "// &
+              "of "//to_text(angle, 4)//", and INPUTX turns a node by less than pi; a HINGE "// &
+              "with INPUTE makes full turns")
+  end subroutine check_angles
 
   pure function parameter_name(analysis) result(name)
     type(analysis_t), intent(in) :: analysis

@@ -8,9 +8,8 @@ module newton_method
   use linalg_solver, only: solver_t
   use model_data, only: control_load
   use system_data, only: system_t
-  use system_assembly, only: iterate_t, assemble, right_hand_side, advance
+  use system_assembly, only: iterate_t, assemble, right_hand_side, pattern_direction, advance
   use system_constraints, only: coordinate_scale
-  use system_loads, only: load_direction
   use path_control, only: control_t, load_increment
   use recorder, only: recorder_t, iteration_t
   implicit none
@@ -104,19 +103,13 @@ contains
     type(iterate_t), intent(in) :: iterate
     real(wp), intent(out) :: solution(:), rise
     type(error_t), allocatable, intent(out) :: error
-    real(wp), allocatable :: direction(:), force(:)
-    integer :: k
+    real(wp), allocatable :: direction(:)
 
     rise = 0
     solution = right_hand_side(system, iterate)
     call solver%solve(solution, error)
     if (allocated(error) .or. control%kind == control_load) return
-    allocate (direction(size(solution)), force(system%coordinates))
-    call load_direction(system, iterate%state, level, control%pattern, force)
-    direction = 0
-    do k = 1, system%coordinates
-      if (system%unknown(k) > 0) direction(system%unknown(k)) = force(k)
-    end do
+    direction = pattern_direction(system, iterate%state, level, control%pattern)
     call solver%solve(direction, error)
     if (allocated(error)) return
     rise = load_increment(system, control, iterate, by_coordinate(system, solution), &
@@ -222,7 +215,8 @@ contains
 
     largest = 0
     do k = 1, size(system%multiplier)
-      if (system%multiplier(k) > 0) largest = max(largest, abs(iterate%strain(k)))
+      if (system%multiplier(k) == 0) cycle
+      largest = max(largest, abs(iterate%strain(k) - iterate%target(k)))
     end do
   end function largest_constraint
 

@@ -7,6 +7,7 @@ module recorder
   use model_data, only: analysis_t
   use system_results, only: results_t
   use mode_results, only: modes_t, mode_lines
+  use restart_point, only: point_t
   implicit none
   private
 
@@ -14,7 +15,7 @@ module recorder
   type, public :: iteration_t
     integer :: step = 0               !< recorded step it works for, from 1
     integer :: iteration = 0          !< within its increment of the load
-    real(wp) :: factor = 0.0_wp       !< load factor aimed at
+    real(wp) :: factor = 0.0_wp       !< load factor or time aimed at
     real(wp) :: increment = 0.0_wp    !< largest change, relative to the motion so far
     real(wp) :: residual = 0.0_wp     !< largest unbalanced force, relative to the forces
     real(wp) :: constraint = 0.0_wp   !< largest fixed strain, relative to the model's length
@@ -36,7 +37,7 @@ module recorder
   integer, parameter, public :: critical_limit = 1, critical_bifurcation = 2
   character(len=11), parameter, public :: critical_name(2) = ["limit point", "bifurcation"]
 
-  public :: critical_line
+  public :: critical_line, compliance_line
 
   !> A critical point of the path.
   type, public :: critical_t
@@ -51,6 +52,9 @@ module recorder
   contains
     procedure :: critical_point
     procedure :: modes
+    procedure :: compliance
+    procedure :: wants_point
+    procedure :: keep_point
     procedure(begin_interface), deferred :: begin
     procedure(iteration_interface), deferred :: iteration
     procedure(remark_interface), deferred :: remark
@@ -130,6 +134,36 @@ contains
     if (size(line) < 0) call fail(error, exit_solve, "")
   end subroutine modes
 
+  !> How nodes yield to loads: displacement and rotation of each by a unit force and moment on it,
+  !> in global axes. A line for each, unless a recorder keeps more.
+  subroutine compliance(self, node, matrix, error)
+    class(recorder_t), intent(inout) :: self
+    integer, intent(in) :: node(:)            !< indices in the model
+    !> (6, 6, nodes) X Y Z [L], RX RY RZ [1] by FX FY FZ [F], MX MY MZ [F L]
+    real(wp), intent(in) :: matrix(:, :, :)
+    type(error_t), allocatable, intent(out) :: error
+    integer :: i
+
+    do i = 1, size(node)
+      call self%remark(compliance_line("node number "//to_text(node(i)), matrix(:, :, i)))
+    end do
+    if (size(matrix, 3) /= size(node)) call fail(error, exit_solve, "a compliance without a node")
+  end subroutine compliance
+
+  !> The compliance of a node in its own directions, in one line.
+  function compliance_line(name, matrix) result(line)
+    character(len=*), intent(in) :: name
+    real(wp), intent(in) :: matrix(6, 6)
+    character(len=:), allocatable :: line
+    character(len=2), parameter :: direction(6) = ["X ", "Y ", "Z ", "RX", "RY", "RZ"]
+    integer :: i
+
+    line = name//":"
+    do i = 1, 6
+      line = line//" "//trim(direction(i))//" "//to_text(matrix(i, i), 5)
+    end do
+  end function compliance_line
+
   !> A critical point was passed: a line of it, unless a recorder keeps more.
   subroutine critical_point(self, point, error)
     class(recorder_t), intent(inout) :: self
@@ -139,6 +173,24 @@ contains
     call self%remark(critical_line(point))
     if (point%step < 0) call fail(error, exit_solve, "a critical point without a step")
   end subroutine critical_point
+
+  !> Whether it is time for a restart point; never, unless a recorder keeps them.
+  logical function wants_point(self)
+    class(recorder_t), intent(inout) :: self
+
+    wants_point = .not. same_type_as(self, self)
+  end function wants_point
+
+  !> Where the analysis stands behind the last recorded step: keep it in place of the last one.
+  subroutine keep_point(self, point, error)
+    class(recorder_t), intent(inout) :: self
+    type(point_t), intent(in) :: point
+    type(error_t), allocatable, intent(out) :: error
+
+    if (self%wants_point() .and. point%states < 1) then
+      call fail(error, exit_solve, "a restart point without a state")
+    end if
+  end subroutine keep_point
 
   !> A critical point in one line.
   function critical_line(point) result(line)

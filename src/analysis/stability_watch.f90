@@ -7,9 +7,8 @@ module stability_watch
   use nodal_state, only: coordinate_number, node_coordinates
   use linalg_solver, only: solver_t
   use system_data, only: system_t
-  use system_assembly, only: iterate_t, assemble
+  use system_assembly, only: iterate_t, assemble, pattern_direction
   use system_constraints, only: coordinate_scale
-  use system_loads, only: load_direction
   use newton_method, only: newton_t, newton_outcome_t, find_equilibrium, newton_converged
   use path_control, only: control_t
   use equilibrium_path, only: safe_t, keep_safe, go_back
@@ -225,25 +224,27 @@ contains
     type(iterate_t), intent(inout) :: iterate
     type(critical_t), intent(inout) :: point
     type(error_t), allocatable, intent(out) :: error
-    real(wp), dimension(system%coordinates) :: mode, force
-    real(wp) :: work, largest
+    real(wp) :: mode(system%coordinates)
+    real(wp), dimension(system%equations()) :: solution, direction, scale
     integer :: k, i
 
     call assemble(system, level, iterate)
     call solver%factorize(iterate%values, error)
     if (allocated(error)) return
-    call inverse_iteration(system, solver, mode, error)
+    call inverse_iteration(system, solver, mode, solution, error)
     if (allocated(error)) return
-    call load_direction(system, iterate%state, level, pattern, force)
-    work = 0
-    largest = 0
+    direction = pattern_direction(system, iterate%state, level, pattern)
+    scale = 1
     do k = 1, system%coordinates
-      if (system%unknown(k) == 0) cycle
-      work = work + force(k)*mode(k)*coordinate_scale(system, k)
-      largest = largest + (force(k)*coordinate_scale(system, k))**2
+      if (system%unknown(k) > 0) scale(system%unknown(k)) = coordinate_scale(system, k)
     end do
+    if (system%multipliers > 0) then
+      scale(system%unknowns + 1:) = maxval(abs(solution(system%unknowns + 1:)))
+    end if
     point%kind = critical_bifurcation
-    if (abs(work) > orthogonal*sqrt(largest)) point%kind = critical_limit
+    if (abs(dot_product(direction, solution)) > orthogonal*norm2(direction*scale)) then
+      point%kind = critical_limit
+    end if
     point%factor = level(pattern)
     mode = [(mode(k)*coordinate_scale(system, k), k=1, system%coordinates)]
     allocate (point%mode(node_coordinates, system%nodes))
@@ -254,12 +255,13 @@ contains
 
   !> The eigenvector of the smallest eigenvalue, scaled to length one and a positive largest entry,
   !> from a fixed start; held coordinates are zero.
-  subroutine inverse_iteration(system, solver, mode, error)
+  subroutine inverse_iteration(system, solver, mode, x, error)
     type(system_t), intent(in) :: system
     type(solver_t), intent(inout) :: solver
     real(wp), intent(out) :: mode(:)
+    real(wp), intent(out) :: x(:)      !< the same by unknown, not scaled, with the multipliers
     type(error_t), allocatable, intent(out) :: error
-    real(wp) :: x(system%equations())
+    real(wp) :: length
     integer :: k, sweep
 
     do k = 1, system%coordinates
@@ -276,7 +278,9 @@ contains
         mode(k) = 0
         if (system%unknown(k) > 0) mode(k) = x(system%unknown(k))/coordinate_scale(system, k)
       end do
-      mode = mode/sign(norm2(mode), mode(maxloc(abs(mode), 1)))
+      length = sign(norm2(mode), mode(maxloc(abs(mode), 1)))
+      mode = mode/length
+      x = x/length
     end do
   end subroutine inverse_iteration
 

@@ -8,6 +8,7 @@ module app_commands
   use model_data, only: model_t
   use deck_reader, only: read_deck
   use deck_keywords, only: keywords
+  use deck_modes, only: mode_check, mode_static
   use deck_manual, only: list_keywords, describe_keyword, keywords_markdown
   use analysis_run, only: run_analyses
   use analysis_check, only: check_model
@@ -84,14 +85,27 @@ contains
     type(report_t) :: report
 
     call read_deck(command%argument, command%setting, model, report, error, &
-                   parts=command%action == "section")
+                   parts=command%action == "section", &
+                   mode=merge(command%mode, mode_static, command%mode >= 0))
     if (allocated(error)) return
     if (report%errors() > 0 .or. command%level > log_quiet) call report%print(error_unit)
     if (report%errors() > 0) call fail(error, exit_deck, command%argument//": "// &
                                        plural(report%errors(), "error"))
+    if (.not. allocated(error) .and. command%mode >= 0) call check_mode(command, model, error)
   end subroutine load_deck
 
-  !> spar run
+  !> --mode is for decks without analysis cards: implied analyses have no place.
+  subroutine check_mode(command, model, error)
+    type(command_t), intent(in) :: command
+    type(model_t), intent(in) :: model
+    type(error_t), allocatable, intent(out) :: error
+
+    if (all(model%analysis%place%line == 0)) return
+    call fail(error, exit_usage, "--mode is for a deck without analysis cards, "//command%argument &
+              //" has some"//newline//"    hint: spar run "//command%argument)
+  end subroutine check_mode
+
+  !> spar run; SPACAR's mode 0 is spar check
   subroutine run_deck(command, error)
     type(command_t), intent(in) :: command
     type(error_t), allocatable, intent(out) :: error
@@ -100,6 +114,10 @@ contains
     type(run_options_t) :: options
     type(error_t), allocatable :: second
 
+    if (command%mode == mode_check) then
+      call check_deck(command, error)
+      return
+    end if
     call get_options(command, options, error)
     if (.not. allocated(error)) call load_deck(command, model, error)
     if (.not. allocated(error)) call recorder%open(options, model, error)

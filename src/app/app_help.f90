@@ -60,6 +60,11 @@ contains
       "", &
       "  -o OUT.h5          result file; default: the deck's name with .h5, in this folder", &
       "  -D NAME=VALUE      value of a name, in place of the deck's SET; may be repeated", &
+      "  --mode N           of a deck without analysis cards, what SPACAR runs in this mode:", &
+      "                     0 check, 1 transient and 2 inverse dynamics (TIMESTEP gives the", &
+      "                     times), 7 equilibrium, then frequencies, 8 buckling multipliers of", &
+      "                     the DELXF loads upon the XF loads (of the XF loads without DELXF),", &
+      "                     10 load steps (default)", &
       "  --no-vtk           leave out the drawing for ParaView (/VTKHDF)", &
       "  --no-overwrite     refuse to replace an existing result file", &
       "  --quiet            print nothing but errors", &

@@ -6,6 +6,7 @@ module app_options
   use deck_settings, only: is_identifier
   use model_data, only: setting_t
   use deck_number, only: parse_number
+  use deck_modes, only: run_modes, missing_modes
   use output_log, only: log_quiet, log_normal, log_verbose
   use output_differences, only: tolerance_t
   implicit none
@@ -29,6 +30,7 @@ module app_options
     type(string_t), allocatable :: only(:)     !< --only
     type(tolerance_t) :: tolerance             !< --rtol, --atol
     integer :: digits = 6                      !< --digits
+    integer :: mode = -1                       !< --mode; -1: not given
     logical :: json = .false.
     logical :: markdown = .false.
     integer :: level = log_normal              !< one of `log_*`
@@ -162,7 +164,7 @@ contains
       if (option == "-D") call add_setting(value, command, error)
     case ("--no-overwrite")
       command%overwrite = .false.
-    case ("--rtol", "--atol", "--digits", "--only")
+    case ("--rtol", "--atol", "--digits", "--only", "--mode")
       call take_value(words, i, command, error)
     case ("--no-progress")
       command%progress = .false.
@@ -189,7 +191,7 @@ contains
     select case (action)
     case ("run")
       options = [character(len=14) :: "-h", "--help", "-D", "-o", "--no-overwrite", "--quiet", &
-                 "--verbose", "--no-progress", "--no-vtk"]
+                 "--verbose", "--no-progress", "--no-vtk", "--mode"]
     case ("check")
       options = [character(len=14) :: "-h", "--help", "-D"]
     case ("section")
@@ -242,6 +244,9 @@ contains
         call add_path(word, command%only)
         if (word == "") call refuse("'--only' needs a path", "", error, command%action)
         return
+      else if (option == "--mode") then
+        call set_mode(word, command, error)
+        return
       end if
       call parse_number(word, number, status)
       if (status == 0 .and. option == "--digits") then
@@ -256,6 +261,27 @@ contains
                                    command%action)
     end associate
   end subroutine take_value
+
+  !> One of SPACAR's run modes.
+  subroutine set_mode(word, command, error)
+    character(len=*), intent(in) :: word
+    type(command_t), intent(inout) :: command
+    type(error_t), allocatable, intent(out) :: error
+    real(wp) :: number
+    integer :: status
+
+    call parse_number(word, number, status)
+    if (command%mode >= 0) then
+      call refuse("option '--mode' is given twice", "", error, command%action)
+    else if (status /= 0 .or. scan(word, ".eEdD") > 0 .or. &
+             .not. any(abs(number - [run_modes, missing_modes]) < 0.5_wp)) then
+      call refuse(quoted(word)//" is no mode: 0, 1, 2, 7, 8 and 10 are", "", error, command%action)
+    else if (any(missing_modes == nint(number))) then
+      call refuse("--mode "//word//" is not available yet", "", error, command%action)
+    else
+      command%mode = nint(number)
+    end if
+  end subroutine set_mode
 
   pure subroutine add_path(path, paths)
     character(len=*), intent(in) :: path

@@ -5,7 +5,7 @@ module formula
   implicit none
   private
 
-  public :: formula_t, emit, formula_value
+  public :: formula_t, emit, formula_value, combine, apply
 
   integer, parameter, public :: push_number = 1, push_variable = 2, negate = 3, add = 4, &
                                 subtract = 5, multiply = 6, divide = 7, raise = 8

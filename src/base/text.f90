@@ -5,7 +5,7 @@ module text
   implicit none
   private
 
-  public :: string_t, to_text, upper, plural, quoted, edit_distance, nearest_word, joined
+  public :: string_t, to_text, upper, lower, plural, quoted, edit_distance, nearest_word, joined
 
   character(len=*), parameter, public :: newline = achar(10)
 
@@ -85,6 +85,19 @@ contains
       upper(i:i) = achar(code)
     end do
   end function upper
+
+  !> ASCII letters in lower case.
+  pure function lower(word)
+    character(len=*), intent(in) :: word
+    character(len=len(word)) :: lower
+    integer :: i, code
+
+    do i = 1, len(word)
+      code = iachar(word(i:i))
+      if (code >= iachar("A") .and. code <= iachar("Z")) code = code + 32
+      lower(i:i) = achar(code)
+    end do
+  end function lower
 
   !> "1 node", "3 nodes".
   pure function plural(n, noun) result(phrase)

@@ -27,7 +27,8 @@ contains
     select case (keyword)
     case ("NODE", "X")
       call mark_nodes(card, draft)
-    case ("BEAMW", "")
+    case ("BEAMW", "BEAM", "TRUSS", "HINGE", "UNIVERSAL", "SPHERICAL", "CYLINDRICAL", &
+          "PRISMATIC", "GEAR", "")
       call mark_elements(card, draft)
       if (keyword == "") call mark_nodes(card, draft)
     case ("MATERIAL")

@@ -6,7 +6,7 @@ module deck_draft
   use text, only: newline
   use lookup_tables, only: id_table_t
   use diagnostics, only: place_t, report_t
-  use model_data, only: model_t, setting_t, second_consistent, mass_consistent
+  use model_data, only: model_t, setting_t, second_consistent, mass_consistent, type_beamw
   use deck_registry, only: registry_t
   use deck_settings, only: settings_t
   use deck_expression, only: scope_t
@@ -14,7 +14,8 @@ module deck_draft
   implicit none
   private
 
-  public :: draft_t, selection_t, item_t, record_t, beam_t, group_t, iteration_t, new_draft
+  public :: draft_t, selection_t, item_t, record_t, beam_t, group_t, iteration_t, &
+            timestep_t, new_draft
 
   integer, parameter, public :: select_all = 1, select_name = 2, select_range = 3
 
@@ -37,6 +38,11 @@ module deck_draft
   integer, parameter, public :: record_fix = 1, record_flexible = 2, record_release = 3, &
     record_stiffness = 4, record_inertia = 5, record_load = 6, record_marker = 7, &
     record_gravity = 8, record_control = 9, record_stop = 10
+  integer, parameter, public :: record_compliance = 31, record_kept_nodes = 32, &
+    record_kept_elements = 33
+  integer, parameter, public :: record_damping = 21, record_stress = 22, record_strain = 23, &
+    record_coordinate = 24, record_mass = 25, record_gear = 26, record_start = 27, &
+    record_start_strain = 28
 
   !> A card about nodes or elements of a list.
   type :: record_t
@@ -45,7 +51,7 @@ module deck_draft
     integer :: from = 1, to = 0             !< its lists in `selection`
     integer :: item_from = 1, item_to = 0   !< its components or modes in `item`
     integer :: values = 0
-    real(wp) :: value(7) = 0.0_wp
+    real(wp) :: value(8) = 0.0_wp
     integer :: function = 0                 !< number of its function
     logical :: at_offset = .false., at_point = .false.
     real(wp) :: offset(2) = 0.0_wp
@@ -56,12 +62,18 @@ module deck_draft
     type(place_t) :: of_place
     integer :: marker = 0                   !< number of the marker it makes
     integer :: block = 1                    !< which stretch between analyses it stands in
-    logical :: additional = .false.         !< DELXF
+    logical :: additional = .false.         !< DELXF, DELINPX, DELINPE
+    logical :: before_halt = .false.        !< INPUTX, INPUTE: no HALT stands before it
+    logical :: follower = .false.           !< FOLLOWER
+    logical :: rate = .false.               !< STARTDX, STARTDE
+    integer :: joint = 0                    !< number of the GEAR
   end type record_t
 
-  !> A BEAMW card.
+  !> The card of an element: a beam, or a joint, which `model%joint` holds.
   type :: beam_t
     integer :: id = 0
+    integer :: kind = type_beamw
+    integer :: joint = 0                    !< index of the joint; 0: a beam
     integer :: node(3, 2) = 0               !< numbers of its nodes by kind and end; 0: broken card
     real(wp) :: orientation(3) = 0.0_wp
     integer :: section = 0, material = 0
@@ -84,6 +96,13 @@ module deck_draft
     real(wp) :: tolerance = 0.0_wp
     type(place_t) :: place
   end type iteration_t
+
+  !> SPACAR's TIMESTEP.
+  type :: timestep_t
+    real(wp) :: end_time = 0.0_wp
+    integer :: steps = 0
+    type(place_t) :: place
+  end type timestep_t
 
   type :: draft_t
     type(report_t) :: report
@@ -110,14 +129,18 @@ module deck_draft
     integer :: items = 0
     type(record_t), allocatable :: record(:)
     integer :: records = 0
-    integer :: nodes = 0, members = 0, markers = 0, points = 0, analyses = 0
+    integer :: nodes = 0, members = 0, markers = 0, points = 0, analyses = 0, joints = 0
     integer :: block = 1                              !< number of the stretch between analyses
     integer, allocatable :: analysis_steps(:)         !< STEPS of each analysis; 0: not given
     type(iteration_t) :: iteration
+    type(timestep_t) :: timestep
+    integer :: spacar_mode = 10                       !< of --mode, for a deck without analyses
+    type(place_t) :: damp_place                       !< of the DAMP card
     character(len=:), allocatable :: include_path     !< set by an INCLUDE card
     type(place_t) :: include_place
     logical :: complete = .true.                      !< a model to be run, not parts of one
     logical :: finished = .false.                     !< VISUALIZATION was read
+    logical :: halted = .false.                       !< HALT was read
     character(len=:), allocatable :: kept             !< the text read so far, and spare room
     integer :: kept_length = 0
   contains

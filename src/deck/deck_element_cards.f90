@@ -1,20 +1,20 @@
-!> Cards about elements: BEAMW, DYNE, RLSE, ESTIFF, EM.
+!> Cards about elements: BEAMW, BEAM, DYNE, RLSE, ESTIFF, EM, EDAMP, ESIG.
 module deck_element_cards
   use text, only: to_text
   use errors, only: error_t
   use diagnostics, only: place_t
   use section_check, only: check_product
   use model_data, only: second_none, second_jonker, second_consistent, mass_none, mass_lumped, &
-                        mass_consistent, translational, warping
+                        mass_consistent, type_beamw, type_beam
   use deck_card, only: card_t
   use deck_draft, only: draft_t, beam_t, record_t, record_flexible, record_release, &
-                        record_stiffness, record_inertia
+                        record_stiffness, record_inertia, record_damping, record_stress
   use deck_growth, only: grow
   use deck_model_cards, only: node_number, add_selection
   implicit none
   private
 
-  public :: read_beamw, read_dyne, read_rlse, read_estiff, read_em
+  public :: read_beamw, read_beam, read_dyne, read_rlse, read_estiff, read_em, read_edamp, read_esig
   public :: beam_number, add_record, add_item
 
 contains
@@ -23,31 +23,32 @@ contains
   subroutine read_beamw(card, draft)
     type(card_t), intent(in) :: card
     type(draft_t), intent(inout) :: draft
+
+    call add_beam(card, draft, type_beamw)
+  end subroutine read_beamw
+
+  !> BEAM id p q [ox oy oz] [options] or BEAM id Xp Rp Xq Rq [ox oy oz] [options]
+  subroutine read_beam(card, draft)
+    type(card_t), intent(in) :: card
+    type(draft_t), intent(inout) :: draft
+
+    call add_beam(card, draft, type_beam)
+  end subroutine read_beam
+
+  subroutine add_beam(card, draft, kind)
+    type(card_t), intent(in) :: card
+    type(draft_t), intent(inout) :: draft
+    integer, intent(in) :: kind
     type(beam_t) :: beam
-    integer :: k, last_node, kind, w
+    integer :: k, last_node
 
     call beam_number(draft, card%whole(2), card%place(2), k)
     if (k == 0) return
     beam%id = card%whole(2)
+    beam%kind = kind
     beam%place = card%place(2)
-    last_node = merge(4, 8, card%positional <= 6)
-    do w = 3, last_node
-      if (last_node == 8) then
-        kind = 1 + modulo(w - 3, 3)
-        call node_number(draft, card%whole(w), card%part(w), card%place(w), &
-                         beam%node(kind, 1 + (w - 3)/3))
-      else
-        call node_number(draft, card%whole(w), card%part(w), card%place(w), beam%node(1, w - 2))
-        beam%node(:, w - 2) = beam%node(1, w - 2)
-      end if
-    end do
-    do kind = translational, warping
-      if (beam%node(kind, 1) /= beam%node(kind, 2)) cycle
-      w = merge(4, 5 + kind, last_node == 4)
-      call draft%report%add_error(card%place(w), "both ends of the element are at node "// &
-                                  to_text(card%whole(w)))
-      return
-    end do
+    call read_ends(card, draft, beam, last_node)
+    if (last_node == 0) return
     if (card%positional > last_node - 1) beam%orientation = card%number(last_node + 1:last_node + 3)
     if (card%positional > last_node - 1 .and. .not. any(abs(beam%orientation) > 0)) then
       call draft%report%add_error(card%place(last_node + 1), "the orientation cannot be 0 0 0")
@@ -55,7 +56,35 @@ contains
     end if
     call read_options(card, draft, beam)
     draft%beam(k) = beam
-  end subroutine read_beamw
+  end subroutine add_beam
+
+  !> The nodes of a beam, one word an end or one for each kind of node; `last_node` is the word of
+  !> the last, 0 after an error. A BEAM has no warping node: it has the rotational one there.
+  subroutine read_ends(card, draft, beam, last_node)
+    type(card_t), intent(in) :: card
+    type(draft_t), intent(inout) :: draft
+    type(beam_t), intent(inout) :: beam
+    integer, intent(out) :: last_node
+    integer :: kinds, words, kind, end, w
+
+    kinds = merge(3, 2, beam%kind == type_beamw)
+    words = merge(1, kinds, card%positional == 3 .or. card%positional == 6)
+    last_node = 2 + 2*words
+    do w = 3, last_node
+      end = 1 + (w - 3)/words
+      kind = 1 + modulo(w - 3, words)
+      call node_number(draft, card%whole(w), card%part(w), card%place(w), beam%node(kind, end))
+      beam%node(kind + 1:, end) = beam%node(kind, end)
+    end do
+    do kind = 1, kinds
+      if (beam%node(kind, 1) /= beam%node(kind, 2)) cycle
+      w = 2 + words + min(kind, words)
+      call draft%report%add_error(card%place(w), "both ends of the element are at node "// &
+                                  to_text(card%whole(w)))
+      last_node = 0
+      return
+    end do
+  end subroutine read_ends
 
   !> SECTION MATERIAL SECOND SHEAR MASS ROTARY DIVIDE RIGID, in the order of the table.
   subroutine read_options(card, draft, beam)
@@ -153,7 +182,7 @@ contains
     draft%item(draft%items)%place = card%place(w)
   end subroutine add_item
 
-  !> ESTIFF elements EA GIt EIy EIz cy cz EIw
+  !> ESTIFF elements values
   subroutine read_estiff(card, draft)
     type(card_t), intent(in) :: card
     type(draft_t), intent(inout) :: draft
@@ -161,13 +190,29 @@ contains
     call add_values(card, draft, record_stiffness)
   end subroutine read_estiff
 
-  !> EM elements rhoA rhoIp rhoIy rhoIz rhoIyz rhoIw
+  !> EM elements values
   subroutine read_em(card, draft)
     type(card_t), intent(in) :: card
     type(draft_t), intent(inout) :: draft
 
     call add_values(card, draft, record_inertia)
   end subroutine read_em
+
+  !> EDAMP elements values
+  subroutine read_edamp(card, draft)
+    type(card_t), intent(in) :: card
+    type(draft_t), intent(inout) :: draft
+
+    call add_values(card, draft, record_damping)
+  end subroutine read_edamp
+
+  !> ESIG elements values
+  subroutine read_esig(card, draft)
+    type(card_t), intent(in) :: card
+    type(draft_t), intent(inout) :: draft
+
+    call add_values(card, draft, record_stress)
+  end subroutine read_esig
 
   subroutine add_values(card, draft, kind)
     type(card_t), intent(in) :: card
@@ -181,8 +226,10 @@ contains
     record%values = card%positional - 1
     do i = 1, record%values
       record%value(i) = card%number(2 + i)
-      if (record%value(i) >= 0 .or. (kind == record_inertia .and. i == 5)) cycle
-      call draft%report%add_error(card%place(2 + i), "a stiffness or mass cannot be negative")
+      if (record%value(i) >= 0 .or. kind == record_stress) cycle
+      if (kind == record_inertia .and. i == 5) cycle
+      call draft%report%add_error(card%place(2 + i), trim(merge("damping          ", &
+        "stiffness or mass", kind == record_damping))//" cannot be negative")
       return
     end do
     if (kind == record_inertia) then

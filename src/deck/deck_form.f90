@@ -3,12 +3,13 @@ module deck_form
   use text, only: upper, quoted, nearest_word, to_text, joined
   use diagnostics, only: report_t
   use deck_card, only: card_t
+  use deck_wording, only: alternatives, option_values, counts, usage_text
   use deck_usage, only: usage_t, form_t, argument_t, kind_option, kind_choice, kind_component, &
-                        kind_literal
+                        kind_literal, kind_real
   implicit none
   private
 
-  public :: find_row, match_card, usage_text
+  public :: find_row, match_card
 
   character(len=*), parameter :: number_starts = "0123456789+-.{"
   character(len=2), parameter, public :: component_names(7) = &
@@ -49,10 +50,9 @@ contains
 
     first_row = 0
     do i = 1, size(usage)
-      if (usage(i)%name == name) then
-        first_row = i
-        return
-      end if
+      if (usage(i)%name /= name) cycle
+      first_row = i
+      return
     end do
   end function first_row
 
@@ -82,7 +82,8 @@ contains
       return
     end do
     if (card%words <= at) then
-      call report%add_error(card%place(1), trim(usage(row)%name)//" needs a name and "//all)
+      if (at > 1) all = "a name and "//all
+      call report%add_error(card%place(1), trim(usage(row)%name)//" needs "//all)
     else
       best = nearest_word(card%word(at + 1), literals)
       if (best /= "") best = "did you mean "//best//"?"
@@ -106,6 +107,7 @@ contains
     ok = .false.
     do i = 1, size(usage%form)
       if (.not. fits(usage%form(i), given)) cycle
+      if (.not. agrees(card, usage%form(i))) cycle
       ok = .true.
       call match_positional(card, usage%form(i), report, ok)
       exit
@@ -124,21 +126,51 @@ contains
     fits = given >= form%least .and. (given <= form%arguments .or. form%repeats)
   end function fits
 
+  !> Whether no word stands for a number that cannot be one: that tells `INPUTX 2 X Y` from
+  !> `INPUTX 2 X 0.5`.
+  pure logical function agrees(card, form)
+    type(card_t), intent(in) :: card
+    type(form_t), intent(in) :: form
+    integer :: i
+
+    agrees = .true.
+    do i = 1, card%positional
+      if (form%argument(min(i, form%arguments))%kind /= kind_real) cycle
+      if (may_be_number(card, i + 1)) cycle
+      agrees = agrees .and. component_number(card%word(i + 1)) == 0
+    end do
+  end function agrees
+
+  pure logical function may_be_number(card, w)
+    type(card_t), intent(in) :: card
+    integer, intent(in) :: w
+
+    may_be_number = scan(card%text(card%first(w):card%first(w)), number_starts) > 0
+  end function may_be_number
+
   !> How many words behind the keyword are positional arguments.
   subroutine count_positional(card, usage, given)
     type(card_t), intent(in) :: card
     type(usage_t), intent(in) :: usage
     integer, intent(out) :: given
-    logical :: open_end
+    logical :: open_end, components
     integer :: w
 
     open_end = usage%form(1)%repeats .and. usage%lead == usage%form(1)%arguments
+    components = .false.
+    do w = 2, size(usage%form)
+      associate (form => usage%form(w))
+        components = components .or. (form%repeats .and. &
+                                      form%argument(form%arguments)%kind == kind_component)
+      end associate
+    end do
     given = 0
     do w = 2, card%words
       if (open_end) then
-        if (w - 1 > usage%lead .and. option_number(usage, card%word(w)) > 0) exit
+        if (w - 1 >= usage%lead .and. option_number(usage, card%word(w)) > 0) exit
       else if (w - 1 > usage%lead) then
-        if (scan(card%text(card%first(w):card%first(w)), number_starts) == 0) exit
+        if (.not. (may_be_number(card, w) .or. (components .and. &
+          component_number(card%word(w)) > 0))) exit
       else if (w - 1 > 1 .and. usage%literal /= w - 1) then
         if (option_number(usage, card%word(w)) > 0) exit
       end if
@@ -198,42 +230,25 @@ contains
     end do
   end function count_before
 
-  !> `A/B/C` as "A, B or C".
-  pure function alternatives(choices) result(phrase)
-    character(len=*), intent(in) :: choices
-    character(len=:), allocatable :: phrase
-    integer :: i, last, n
+  !> X Y Z RX RY RZ W as 1 to 7, SPACAR's numbers 1 to 4 as their negative; else 0.
+  pure integer function component_number(word)
+    character(len=*), intent(in) :: word
+    integer :: i
 
-    phrase = ""
-    n = len_trim(choices)
-    if (choices(n:n) == "/") n = n - 1
-    last = index(choices(:n), "/", back=.true.)
-    do i = 1, n
-      if (choices(i:i) /= "/") then
-        phrase = phrase//choices(i:i)
-      else if (i == last) then
-        phrase = phrase//" or "
-      else
-        phrase = phrase//", "
-      end if
+    component_number = 0
+    do i = 1, size(component_names)
+      if (upper(word) == component_names(i)) component_number = i
     end do
-  end function alternatives
+    if (len(word) == 1) component_number = component_number - index("1234", word)
+  end function component_number
 
-  !> X Y Z RX RY RZ W as 1 to 7, SPACAR's numbers as their negative.
   subroutine match_component(card, w, report, ok)
     type(card_t), intent(inout) :: card
     integer, intent(in) :: w
     type(report_t), intent(inout) :: report
     logical, intent(inout) :: ok
-    character(len=:), allocatable :: word
-    integer :: i
 
-    word = upper(card%word(w))
-    card%whole(w) = 0
-    do i = 1, size(component_names)
-      if (word == component_names(i)) card%whole(w) = i
-    end do
-    if (len(word) == 1) card%whole(w) = card%whole(w) - index("1234", word)
+    card%whole(w) = component_number(card%word(w))
     if (card%whole(w) /= 0) return
     ok = .false.
     call report%add_error(card%place(w), quoted(card%word(w))//" is not a component", &
@@ -280,22 +295,6 @@ contains
       ok = .false.
     end do
   end subroutine match_options
-
-  function option_values(usage, k) result(phrase)
-    type(usage_t), intent(in) :: usage
-    integer, intent(in) :: k
-    character(len=:), allocatable :: phrase
-    integer :: i
-
-    phrase = ""
-    do i = 1, usage%option(k)%values
-      if (usage%option(k)%value(i)%kind == kind_choice) then
-        phrase = joined(phrase, " ", alternatives(usage%option(k)%value(i)%unit))
-      else
-        phrase = joined(phrase, " ", trim(usage%option(k)%value(i)%name))
-      end if
-    end do
-  end function option_values
 
   pure integer function option_number(usage, word) result(number)
     type(usage_t), intent(in) :: usage
@@ -350,51 +349,5 @@ contains
     call report%add_error(card%place(w), trim(usage%name)//" takes "//counts(usage)//", "// &
                           to_text(card%positional)//" given", "usage: "//usage_text(usage))
   end subroutine complain_about_number
-
-  !> "3, 6, 7 or 10 values".
-  function counts(usage) result(phrase)
-    type(usage_t), intent(in) :: usage
-    character(len=:), allocatable :: phrase
-    integer :: i, n
-
-    phrase = ""
-    n = size(usage%form)
-    do i = 1, n
-      associate (form => usage%form(i))
-        if (i > 1) phrase = phrase//trim(merge(" or", ",  ", i == n))//" "
-        if (form%repeats) phrase = phrase//"at least "
-        phrase = phrase//to_text(form%least)
-        if (form%arguments > form%least .and. .not. form%repeats) then
-          phrase = phrase//" to "//to_text(form%arguments)
-        end if
-      end associate
-    end do
-    phrase = phrase//merge(" arguments", " argument ", phrase /= "1" .and. phrase /= "at least 1")
-    phrase = trim(phrase)
-  end function counts
-
-  !> How a keyword is written: `NODE id x y z`.
-  function usage_text(usage) result(phrase)
-    type(usage_t), intent(in) :: usage
-    character(len=:), allocatable :: phrase
-    integer :: i, k
-
-    phrase = ""
-    do k = 1, size(usage%form)
-      associate (form => usage%form(k))
-        if (k > 1) phrase = phrase//" | "
-        phrase = phrase//trim(usage%name)
-        do i = 1, form%arguments
-          if (i > form%least) then
-            phrase = phrase//" ["//trim(form%argument(i)%name)//"]"
-          else
-            phrase = phrase//" "//trim(form%argument(i)%name)
-          end if
-        end do
-        if (form%repeats) phrase = phrase//" ..."
-      end associate
-    end do
-    if (size(usage%option) > 0) phrase = phrase//" [options]"
-  end function usage_text
 
 end module deck_form

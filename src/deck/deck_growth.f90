@@ -1,6 +1,7 @@
 !> Arrays that grow by doubling: `call grow(array, n)` makes room for n entries.
 module deck_growth
-  use model_data, only: node_t, material_t, section_t, function_t, marker_t, analysis_t, load_t
+  use model_data, only: node_t, material_t, section_t, function_t, marker_t, analysis_t, load_t, &
+                        joint_t, mass_t, motion_t, start_t
   use deck_draft, only: beam_t, selection_t, item_t, record_t, group_t
   implicit none
   private
@@ -10,7 +11,8 @@ module deck_growth
   interface grow
     module procedure :: grow_nodes, grow_materials, grow_sections, grow_functions, &
       grow_markers, grow_analysiss, grow_loads, grow_beams, grow_selections, &
-      grow_items, grow_records, grow_groups, grow_integers, grow_logicals
+      grow_items, grow_records, grow_groups, grow_integers, grow_logicals, &
+      grow_joints, grow_masses, grow_motions, grow_starts
   end interface grow
 
 contains
@@ -170,5 +172,49 @@ contains
     more(:size(array)) = array
     call move_alloc(more, array)
   end subroutine grow_logicals
+
+  subroutine grow_joints(array, n)
+    type(joint_t), allocatable, intent(inout) :: array(:)
+    integer, intent(in) :: n
+    type(joint_t), allocatable :: more(:)
+
+    if (n <= size(array)) return
+    allocate (more(max(n, 2*size(array))))
+    more(:size(array)) = array
+    call move_alloc(more, array)
+  end subroutine grow_joints
+
+  subroutine grow_masses(array, n)
+    type(mass_t), allocatable, intent(inout) :: array(:)
+    integer, intent(in) :: n
+    type(mass_t), allocatable :: more(:)
+
+    if (n <= size(array)) return
+    allocate (more(max(n, 2*size(array))))
+    more(:size(array)) = array
+    call move_alloc(more, array)
+  end subroutine grow_masses
+
+  subroutine grow_motions(array, n)
+    type(motion_t), allocatable, intent(inout) :: array(:)
+    integer, intent(in) :: n
+    type(motion_t), allocatable :: more(:)
+
+    if (n <= size(array)) return
+    allocate (more(max(n, 2*size(array))))
+    more(:size(array)) = array
+    call move_alloc(more, array)
+  end subroutine grow_motions
+
+  subroutine grow_starts(array, n)
+    type(start_t), allocatable, intent(inout) :: array(:)
+    integer, intent(in) :: n
+    type(start_t), allocatable :: more(:)
+
+    if (n <= size(array)) return
+    allocate (more(max(n, 2*size(array))))
+    more(:size(array)) = array
+    call move_alloc(more, array)
+  end subroutine grow_starts
 
 end module deck_growth

@@ -22,7 +22,7 @@ module deck_handler
   type :: keyword_t
     character(len=16) :: name = ""
     character(len=8) :: stage = ""       !< "model", "load", "analysis" or "form"
-    character(len=240) :: forms = ""     !< see deck_usage
+    character(len=400) :: forms = ""     !< see deck_usage
     character(len=400) :: options = ""   !< see deck_usage
     character(len=600) :: help = ""
     character(len=400) :: example = ""   !< cards separated by `|`

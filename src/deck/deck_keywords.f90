@@ -3,15 +3,16 @@ module deck_keywords
   use deck_handler, only: keyword_t
   use deck_model_cards, only: read_title, read_set, read_include, read_nothing, &
                               read_visualization, read_outlevel, read_node, read_material, &
-                              read_group_nodes, read_group_elements
+                              read_group_nodes, read_group_elements, read_halt
   use deck_section_cards, only: read_constants, read_shape, read_plates, read_point, read_plate, &
                                 shape_options
   use section_shapes, only: shape_rules
   use deck_function_cards, only: read_ramp, read_sine, read_step, read_table, read_formula
-  use deck_element_cards, only: read_beamw, read_dyne, read_rlse, read_estiff, read_em
+  use deck_element_keywords, only: beam_keywords, joint_keywords, mode_keywords, motion_keywords
   use deck_load_cards, only: read_fix, read_marker, read_xf, read_delxf, read_gravity, &
                              read_static, read_buckling, read_eigen, read_iterstep
   use deck_targets, only: read_imperfection
+  use deck_time_keywords, only: time_keywords, output_keywords, spacar_keywords
   implicit none
   private
 
@@ -24,7 +25,9 @@ contains
     type(keyword_t), allocatable :: table(:)
 
     table = [form_keywords(), model_keywords(), shape_keywords(), drawing_keywords(), &
-             element_keywords(), function_keywords(), load_keywords(), analysis_keywords()]
+             beam_keywords(), joint_keywords(), mode_keywords(), name_keywords(), &
+             function_keywords(), load_keywords(), motion_keywords(), analysis_keywords(), &
+             time_keywords(), output_keywords(), spacar_keywords()]
   end function keywords
 
   !> What concerns the deck itself.
@@ -44,8 +47,9 @@ contains
         "INCLUDE ""sections.deck""", "", read_include), &
       keyword_t("END", "form", "", "", "separates parts of a deck, without meaning", &
         "END", "END", read_nothing), &
-      keyword_t("HALT", "form", "", "", "separates parts of a deck, without meaning", &
-        "HALT", "HALT", read_nothing), &
+      keyword_t("HALT", "form", "", "", "ends the first part of a deck in SPACAR's form: "// &
+        "INPUTX and INPUTE before it name what is prescribed, behind it they give values", &
+        "HALT", "HALT", read_halt), &
       keyword_t("VISUALIZATION", "form", "text:text*", "", &
         "ends the deck: nothing behind it is read", "VISUALIZATION", "VISUALIZATION", &
           read_visualization), &
@@ -146,39 +150,11 @@ contains
         "PLATE 1:8 {i+1} 0.2", "", read_plate)]
   end function drawing_keywords
 
-  !> Elements, their modes, groups and markers.
-  function element_keywords() result(table)
+  !> Groups and markers.
+  function name_keywords() result(table)
     type(keyword_t), allocatable :: table(:)
 
     table = [ &
-      keyword_t("BEAMW", "model", &
-        "id:id p:node q:node | id:id p:node q:node ox:1 oy:1 oz:1 | "// &
-        "id:id Xp:node Rp:node Wp:node Xq:node Rq:node Wq:node | "// &
-        "id:id Xp:node Rp:node Wp:node Xq:node Rq:node Wq:node ox:1 oy:1 oz:1", &
-        "SECTION name:word | MATERIAL name:word | "// &
-        "SECOND order:CONSISTENT/JONKER/NONE=CONSISTENT | SHEAR state:ON/OFF=ON | MASS "// &
-        "kind:CONSISTENT/LUMPED/NONE=CONSISTENT | "// &
-        "ROTARY state:ON/OFF=ON | DIVIDE parts:count=1 | RIGID", &
-        "is a beam with warping between nodes p and q; o is the direction of the section's y "// &
-        "axis. With SECTION and MATERIAL all eight modes are flexible, without SECTION none is."// &
-        " DIVIDE n makes parts id.1 to id.n and inner nodes id.1 to id.(n-1)", &
-        "NODE 1 0 0 0|NODE 2 900 0 0|MATERIAL steel E 21000 NU 0.3|SECTION tube CONSTANTS A 10 "// &
-        "IY 80 IZ 90 IT 170|BEAMW 1 1 2 0 1 0 SECTION tube MATERIAL steel DIVIDE 10", &
-        "BEAMW", read_beamw), &
-      keyword_t("DYNE", "model", "elements:elements mode:mode+", "", &
-        "makes modes flexible; of a beam with SECTION, these only. Modes 7 and 8 follow mode 2", &
-        "DYNE 1:3 2 3 4", "DYNE", read_dyne), &
-      keyword_t("RLSE", "model", "elements:elements mode:mode+", "", &
-        "releases modes: they deform without stress. Modes 3, 5, 7 are at end p, 4, 6, 8 at q", &
-        "RLSE 2 4 6", "RLSE", read_rlse), &
-      keyword_t("ESTIFF", "model", "elements:elements EA:F GIt:F*L^2 EIy:F*L^2 EIz:F*L^2 "// &
-        "cy:L^2 cz:L^2 EIw:F*L^4", "", &
-        "gives stiffness to a beam without SECTION, for the modes that DYNE makes flexible; "// &
-        "cy = EIy/(G A k), likewise cz", &
-        "ESTIFF 1 2e6 4e5 3e5 2e5 0.1 0.2 5e4", "ESTIFF", read_estiff), &
-      keyword_t("EM", "model", "elements:elements rhoA:M*L^-1 rhoIp:M*L rhoIy:M*L rhoIz:M*L "// &
-        "rhoIyz:M*L rhoIw:M*L^3", "", "gives mass to a beam without SECTION", &
-        "EM 1 7.85 0.2 0.15 0.05 0 0.01", "EM", read_em), &
       keyword_t("GROUP", "load", "name:word NODES list:text+", "", &
         "names a list of nodes; a list is an id, a:b, a:b:s, ALL or a group", &
         "GROUP tip NODES 4 11:15 20:30:2", "", read_group_nodes), &
@@ -189,7 +165,7 @@ contains
         "names a point fixed to a section at a node, at (oy, oz) or AT POINT k of the section; "// &
         "OF says whose section where several meet", &
         "MARKER corner 2 AT -2.456 14.2", "", read_marker)]
-  end function element_keywords
+  end function name_keywords
 
   !> Functions of the load factor.
   function function_keywords() result(table)
@@ -217,7 +193,7 @@ contains
   function load_keywords() result(table)
     type(keyword_t), allocatable :: table(:)
     character(len=*), parameter :: load_options = &
-      "FUNCTION name:word | AT oy:place oz:L | OF element:element"
+      "FUNCTION name:word | AT oy:place oz:L | OF element:element | FOLLOWER"
 
     table = [ &
       keyword_t("FIX", "model", "nodes:nodes component:component*", "", &
@@ -229,8 +205,10 @@ contains
         "nodes:nodes Fx:F Fy:F Fz:F Mx:F*L My:F*L Mz:F*L B:F*L^2", load_options, &
         "is a dead load: a force (a moment on a node that is only rotational), force and "// &
         "moment, these and a bimoment, or a bimoment (node that is only warping); at the node, "// &
-        "AT a point of the section or at a marker; FUNCTION replaces the load factor", &
-        "XF 2 0 0 -6|XF 3 0 0 -1 AT -2.456 14.2|XF 4 0 0 0 5 0 0 FUNCTION wave", &
+        "AT a point of the section or at a marker; FUNCTION replaces the load factor, FOLLOWER "// &
+        "turns force and moment with the node", &
+        "XF 2 0 0 -6|XF 3 0 0 -1 AT -2.456 14.2|XF 4 0 0 0 5 0 0 FUNCTION wave|"// &
+        "XF 5 0 -3 0 FOLLOWER", &
         "XF", read_xf), &
       keyword_t("DELXF", "load", "nodes:nodes B:F*L^2 | nodes:nodes Fx:F Fy:F Fz:F | "// &
         "nodes:nodes Fx:F Fy:F Fz:F Mx:F*L My:F*L Mz:F*L | "// &
@@ -266,8 +244,10 @@ contains
         "adds a mode of the last BUCKLING, by its row in the table of multipliers and with "// &
         "this largest displacement, to the undeformed shape; the next analysis starts from there", &
         "XF 2 -1 0 0|BUCKLING MODES 2|IMPERFECTION 1 0.01|STATIC", "", read_imperfection), &
-      keyword_t("EIGEN", "analysis", "", "MODES n:count=10 | NAME name:word", &
-        "finds the n lowest natural frequencies about the present state", &
+      keyword_t("EIGEN", "analysis", "", "MODES n:count=10 | NAME name:word | DAMPED | "// &
+        "MATRICES state:OFF/ON=OFF", &
+        "finds the n lowest natural frequencies about the present state. DAMPED: complex, with "// &
+        "what DAMP, EDAMP and MATERIAL DAMPING say; MATRICES ON keeps the matrices", &
         "EIGEN MODES 6", "mode 7", read_eigen), &
       keyword_t("ITERSTEP", "analysis", &
         "iterations:count n:count? tolerance:1? -:text? -:text? m:count?", "", &

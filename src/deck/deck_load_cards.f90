@@ -17,8 +17,9 @@ module deck_load_cards
 
   public :: read_fix, read_marker, read_xf, read_delxf, read_gravity, read_static, read_iterstep, &
             read_buckling, read_eigen
+  public :: begin_analysis, read_name, check_count, check_tolerance
 
-  integer, parameter :: most_steps = 1000000
+  integer, parameter, public :: most_steps = 1000000
 
 contains
 
@@ -91,7 +92,7 @@ contains
     record%of_place = card%place(w + 1)
   end subroutine read_point
 
-  !> XF nodes values [FUNCTION f] [AT oy oz] [OF element]
+  !> XF nodes values [FUNCTION f] [AT oy oz] [OF element] [FOLLOWER]
   subroutine read_xf(card, draft)
     type(card_t), intent(in) :: card
     type(draft_t), intent(inout) :: draft
@@ -125,6 +126,9 @@ contains
     call read_point(card, 2, record)
     if (record%of_given .and. card%option(2) == 0) call draft%report%add_error( &
       card%place(card%option(3)), "OF names the section that AT refers to: AT is missing")
+    record%follower = card%option(4) > 0
+    if (record%follower .and. record%values == 1) call draft%report%add_error( &
+      card%place(card%option(4)), "a bimoment has no direction that could follow")
     if (card%option(2) > 0 .and. record%values == 1) call draft%report%add_error( &
       card%place(card%option(2)), "a bimoment alone acts at the node, not AT a point")
     call add_record(card, 2, draft, record)
@@ -159,14 +163,8 @@ contains
     type(analysis_t) :: analysis
     integer :: k
 
-    k = draft%analyses + 1
-    draft%analyses = k
-    draft%block = draft%block + 1
-    call grow(draft%model%analysis, k)
-    call grow(draft%analysis_steps, k)
+    call begin_analysis(card, 0, draft, analysis, k)
     associate (option => card%option)
-      analysis%place = card%place(1)
-      draft%analysis_steps(k) = 0
       if (option(1) > 0) then
         draft%analysis_steps(k) = card%whole(option(1) + 1)
         call check_count(card, option(1) + 1, most_steps, draft)
@@ -193,10 +191,7 @@ contains
         call check_count(card, option(11) + 1, most_steps, draft)
       end if
       if (option(12) > 0) analysis%stability = card%whole(option(12) + 1) - 1
-      if (option(13) > 0) then
-        analysis%name = card%word(option(13) + 1)
-        call check_name(card, option(13) + 1, k, analysis%name, draft)
-      end if
+      call read_name(card, 13, k, draft, analysis)
       if (option(14) > 0) analysis%branch = card%whole(option(14) + 1) == 2
       if (analysis%branch) analysis%stability = max(analysis%stability, stability_on)
       call check_arc_options(card, analysis, draft)
@@ -233,7 +228,7 @@ contains
     call read_linearized(card, draft, analysis_buckling)
   end subroutine read_buckling
 
-  !> EIGEN [MODES n] [NAME name]
+  !> EIGEN [MODES n] [NAME name] [DAMPED] [MATRICES ON]
   subroutine read_eigen(card, draft)
     type(card_t), intent(in) :: card
     type(draft_t), intent(inout) :: draft
@@ -248,26 +243,48 @@ contains
     type(analysis_t) :: analysis
     integer :: k
 
+    call begin_analysis(card, 1, draft, analysis, k)
+    analysis%kind = kind
+    associate (option => card%option)
+      if (option(1) > 0) then
+        analysis%modes = card%whole(option(1) + 1)
+        call check_count(card, option(1) + 1, most_steps, draft)
+      end if
+      call read_name(card, 2, k, draft, analysis)
+      analysis%damped = option(3) > 0
+      if (option(4) > 0) analysis%matrices = card%whole(option(4) + 1) == 2
+    end associate
+    draft%model%analysis(k) = analysis
+  end subroutine read_linearized
+
+  !> Start analysis number `k`: loads behind it are for the next one.
+  subroutine begin_analysis(card, steps, draft, analysis, k)
+    type(card_t), intent(in) :: card
+    integer, intent(in) :: steps          !< 0: the default of the deck
+    type(draft_t), intent(inout) :: draft
+    type(analysis_t), intent(inout) :: analysis
+    integer, intent(out) :: k
+
     k = draft%analyses + 1
     draft%analyses = k
     draft%block = draft%block + 1
     call grow(draft%model%analysis, k)
     call grow(draft%analysis_steps, k)
-    draft%analysis_steps(k) = 1
-    analysis%kind = kind
-    associate (option => card%option)
-      analysis%place = card%place(1)
-      if (option(1) > 0) then
-        analysis%modes = card%whole(option(1) + 1)
-        call check_count(card, option(1) + 1, most_steps, draft)
-      end if
-      if (option(2) > 0) then
-        analysis%name = card%word(option(2) + 1)
-        call check_name(card, option(2) + 1, k, analysis%name, draft)
-      end if
-    end associate
-    draft%model%analysis(k) = analysis
-  end subroutine read_linearized
+    draft%analysis_steps(k) = steps
+    analysis%place = card%place(1)
+  end subroutine begin_analysis
+
+  !> NAME, option number `i`, of analysis number `k`.
+  subroutine read_name(card, i, k, draft, analysis)
+    type(card_t), intent(in) :: card
+    integer, intent(in) :: i, k
+    type(draft_t), intent(inout) :: draft
+    type(analysis_t), intent(inout) :: analysis
+
+    if (card%option(i) == 0) return
+    analysis%name = card%word(card%option(i) + 1)
+    call check_name(card, card%option(i) + 1, k, analysis%name, draft)
+  end subroutine read_name
 
   !> A result group's name must be a plain word, once.
   subroutine check_name(card, w, k, name, draft)

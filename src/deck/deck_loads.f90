@@ -3,9 +3,13 @@ module deck_loads
   use kinds, only: wp
   use text, only: to_text, plural
   use diagnostics, only: place_t
-  use model_data, only: load_t, marker_t, analysis_t, pattern_t, analysis_static, analysis_buckling
-  use deck_draft, only: draft_t, record_t, record_load, record_gravity
+  use model_data, only: load_t, marker_t, analysis_t, pattern_t, analysis_static, &
+                        analysis_buckling, analysis_eigen, time_analyses
+  use deck_draft, only: draft_t, record_t, record_load, record_gravity, record_strain, &
+                        record_coordinate
   use deck_growth, only: grow
+  use deck_modes, only: imply_analysis, implies_eigen, describe_analysis, check_timestep, &
+                        mode_check, mode_static
   use deck_points, only: neighbours_t, resolve_point
   use deck_select, only: choice_t, select_nodes, id_text
   implicit none
@@ -14,6 +18,7 @@ module deck_loads
   public :: set_analyses, set_loads
 
   integer, parameter :: base = 1, additional = 2
+  integer, parameter :: loads(2) = [record_load, record_gravity]  !< kinds of records
 
 contains
 
@@ -25,11 +30,11 @@ contains
     type(analysis_t), allocatable :: analysis(:)
     integer :: r, block, n, kind, patterns, pending(2)
 
-    allocate (pattern(2, draft%block), analysis(2*draft%block))
+    allocate (pattern(2, draft%block), analysis(2*draft%block + 1))
     pattern = 0
     do r = 1, draft%records
       associate (record => draft%record(r))
-        if (record%kind == record_load .or. record%kind == record_gravity) then
+        if (is_applied(record)) then
           pattern(merge(additional, base, record%additional), record%block) = 1
         end if
       end associate
@@ -56,13 +61,27 @@ contains
       pending = max(pending, pattern(:, block))
       where (draft%model%imperfection%block == block) draft%model%imperfection%analysis = n + 1
       call add_analyses(draft, pending, block, patterns, analysis, n)
-      if (analysis(n)%kind == analysis_static) pending = 0
+      if (any([analysis_static, time_analyses] == analysis(n)%kind)) pending = 0
       if (all(pending > 0)) pending(base) = 0
     end do
+    if (implies_eigen(draft, analysis(n))) then
+      n = n + 1
+      analysis(n)%kind = analysis_eigen
+      analysis(n)%pattern = patterns
+    end if
     allocate (draft%model%pattern(patterns))
     draft%model%analysis = analysis(:n)
+    call check_timestep(draft)
     if (draft%analyses == 0) call tell_implied(draft, pattern(:, 1))
   end subroutine set_analyses
+
+  !> Whether a card is of a pattern: a load, or a motion with values.
+  pure logical function is_applied(record)
+    type(record_t), intent(in) :: record
+
+    is_applied = any(record%kind == loads) .or. &
+                 (any(record%kind == [record_strain, record_coordinate]) .and. record%values > 0)
+  end function is_applied
 
   !> Loads behind a BUCKLING or EIGEN belong to the pattern that STATIC has not yet applied;
   !> BUCKLING took it as a whole.
@@ -74,8 +93,7 @@ contains
     if (draft%model%analysis(block - 1)%kind /= analysis_buckling) return
     do r = 1, draft%records
       associate (record => draft%record(r))
-        if (record%block /= block) cycle
-        if (record%kind /= record_load .and. record%kind /= record_gravity) cycle
+        if (record%block /= block .or. .not. is_applied(record)) cycle
         call draft%report%add_error(record%place, "this load comes behind BUCKLING, which"// &
           " scales the loads before it as a whole", "give all loads before BUCKLING, or apply"// &
           " the first ones by STATIC")
@@ -85,6 +103,7 @@ contains
   end subroutine check_open
 
   !> The analysis that ends a block, and before it an implied STATIC where DELXF follows XF.
+  !> Without a pattern that is pending STATIC and BUCKLING take the last one, motions in time none.
   subroutine add_analyses(draft, pattern, block, patterns, analysis, n)
     type(draft_t), intent(in) :: draft
     integer, intent(in) :: pattern(2)
@@ -100,11 +119,16 @@ contains
     end if
     n = n + 1
     if (draft%analyses > 0) analysis(n) = draft%model%analysis(block)
-    analysis(n)%pattern = patterns
+    analysis(n)%pattern = merge(pattern(additional), pattern(base), pattern(additional) > 0)
+    if (analysis(n)%pattern == 0 .and. all(time_analyses /= analysis(n)%kind)) then
+      analysis(n)%pattern = patterns
+    end if
     analysis(n)%steps = merge(draft%iteration%additional_steps, draft%iteration%base_steps, &
                               pattern(additional) > 0)
     if (draft%analyses > 0) then
       if (draft%analysis_steps(block) > 0) analysis(n)%steps = draft%analysis_steps(block)
+    else
+      call imply_analysis(draft, any(pattern > 0), analysis(n))
     end if
     call set_defaults(draft, analysis(n))
   end subroutine add_analyses
@@ -123,16 +147,20 @@ contains
     integer :: i
     character(len=:), allocatable :: steps
 
-    if (draft%report%errors() > 0 .or. draft%members == 0) return
+    if (draft%report%errors() > 0 .or. draft%members + draft%joints == 0) return
     steps = ""
     do i = 1, size(draft%model%analysis)
       if (i > 1) steps = steps//", then "
-      steps = steps//"STATIC STEPS "//to_text(draft%model%analysis(i)%steps)
-      if (draft%model%analysis(i)%pattern == pattern(additional) .and. pattern(additional) > 0) then
-        steps = steps//" (DELXF)"
-      end if
+      steps = steps//describe_analysis(draft%model%analysis(i))
+      if (draft%model%analysis(i)%kind == analysis_eigen .or. pattern(additional) == 0) cycle
+      if (draft%model%analysis(i)%pattern == pattern(additional)) steps = steps//" (DELXF)"
     end do
-    call draft%report%add_note(place_t(file=1), "no analysis given: "//steps)
+    if (any(draft%spacar_mode == [mode_check, mode_static])) then
+      steps = "no analysis given: "//steps
+    else
+      steps = "--mode "//to_text(draft%spacar_mode)//": "//steps
+    end if
+    call draft%report%add_note(place_t(file=1), steps)
   end subroutine tell_implied
 
   !> Loads behind the last analysis.
@@ -143,9 +171,9 @@ contains
 
     do r = 1, draft%records
       associate (record => draft%record(r))
-        if (record%block /= block) cycle
-        if (record%kind /= record_load .and. record%kind /= record_gravity) cycle
-        call draft%report%add_warning(record%place, "no analysis follows this load: it is not used")
+        if (record%block /= block .or. .not. is_applied(record)) cycle
+        call draft%report%add_warning(record%place, "no analysis follows this "// &
+          trim(merge("load  ", "motion", any(record%kind == loads)))//": it is not used")
       end associate
     end do
   end subroutine warn_of_unused
@@ -177,8 +205,8 @@ contains
       end associate
     end do
     do p = 1, size(draft%model%pattern)
-      associate (loads => draft%model%pattern(p))
-        loads%load = loads%load(:loads%loads)
+      associate (applied => draft%model%pattern(p))
+        applied%load = applied%load(:applied%loads)
       end associate
     end do
   end subroutine set_loads
@@ -218,11 +246,12 @@ contains
       load%marker = draft%points
     end if
     load%function = draft%functions%reference(record%function)
+    load%follower = record%follower
     load%place = record%place
-    associate (loads => draft%model%pattern(p))
-      loads%loads = loads%loads + 1
-      call grow(loads%load, loads%loads)
-      loads%load(loads%loads) = load
+    associate (applied => draft%model%pattern(p))
+      applied%loads = applied%loads + 1
+      call grow(applied%load, applied%loads)
+      applied%load(applied%loads) = load
     end associate
   end subroutine add_load
 
@@ -259,6 +288,12 @@ contains
         load%moment = value(4:6)
         if (record%values == 7) load%bimoment = value(7)
       end select
+      if (ok .and. record%follower .and. record%values > 1 .and. .not. node%exists(2)) then
+        ok = .false.
+        if (.not. (choice%loose(i) .or. draft%elements_incomplete)) call draft%report%add_error( &
+          choice%place(i), "FOLLOWER turns with the rotation of "//name//", which it does not have")
+        return
+      end if
       if (ok .or. choice%loose(i) .or. draft%elements_incomplete) return
       call draft%report%add_error(choice%place(i), plural(record%values, "value")// &
                                   " do not fit "//name//", which has "//kinds(node%exists), &

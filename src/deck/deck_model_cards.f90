@@ -13,7 +13,8 @@ module deck_model_cards
   implicit none
   private
 
-  public :: read_title, read_set, read_include, read_nothing, read_visualization, read_outlevel
+  public :: read_title, read_set, read_include, read_nothing, read_halt, read_visualization
+  public :: read_outlevel
   public :: read_node, read_material, read_group_nodes, read_group_elements
   public :: node_number, define_name, add_selection
 
@@ -29,13 +30,21 @@ contains
     draft%model%title = card%raw(2)
   end subroutine read_title
 
-  !> END, HALT: separators without meaning.
+  !> END: a separator without meaning.
   subroutine read_nothing(card, draft)
     type(card_t), intent(in) :: card
     type(draft_t), intent(inout) :: draft
 
     if (card%words == 0) draft%finished = .true.
   end subroutine read_nothing
+
+  !> HALT: from here on INPUTX and INPUTE give values, before it they declare.
+  subroutine read_halt(card, draft)
+    type(card_t), intent(in) :: card
+    type(draft_t), intent(inout) :: draft
+
+    draft%halted = card%words > 0
+  end subroutine read_halt
 
   subroutine read_visualization(card, draft)
     type(card_t), intent(in) :: card

@@ -33,27 +33,30 @@ contains
 
   !> Read a deck. `report` has all that is to be said of it; the model is sound if it has no
   !> errors. `error` is for a deck file that cannot be read at all.
-  subroutine read_deck(path, overrides, model, report, error, parts)
+  subroutine read_deck(path, overrides, model, report, error, parts, mode)
     character(len=*), intent(in) :: path
     type(setting_t), intent(in) :: overrides(:)  !< of -D
     type(model_t), intent(out) :: model
     type(report_t), intent(out) :: report
     type(error_t), allocatable, intent(out) :: error
     logical, intent(in), optional :: parts       !< of sections and materials: need not be complete
+    integer, intent(in), optional :: mode        !< of SPACAR, for a deck without analysis cards
     character(len=:), allocatable :: text
 
     call load_text(path, text, error)
-    if (.not. allocated(error)) call read_deck_text(path, text, overrides, model, report, parts)
+    if (.not. allocated(error)) call read_deck_text(path, text, overrides, model, report, &
+                                                      parts, mode)
   end subroutine read_deck
 
   !> Read a deck from memory; `path` is its name in messages and where includes count from.
-  subroutine read_deck_text(path, text, overrides, model, report, parts)
+  subroutine read_deck_text(path, text, overrides, model, report, parts, mode)
     character(len=*), intent(in) :: path
     character(len=:), allocatable, intent(inout) :: text   !< moved into the report
     type(setting_t), intent(in) :: overrides(:)
     type(model_t), intent(out) :: model
     type(report_t), intent(out) :: report
     logical, intent(in), optional :: parts                 !< see `read_deck`
+    integer, intent(in), optional :: mode                  !< see `read_deck`
     type(draft_t) :: draft
     type(table_t) :: table
     type(string_t) :: open_files(deepest)
@@ -61,6 +64,7 @@ contains
 
     call new_draft(overrides, draft)
     if (present(parts)) draft%complete = .not. parts
+    if (present(mode)) draft%spacar_mode = mode
     call compile(table)
     call draft%report%add_file(path, text, file)
     open_files(1)%s = beside("", path)
@@ -81,6 +85,9 @@ contains
     call move_alloc(draft%model%material, model%material)
     call move_alloc(draft%model%section, model%section)
     call move_alloc(draft%model%member, model%member)
+    call move_alloc(draft%model%joint, model%joint)
+    call move_alloc(draft%model%mass, model%mass)
+    call move_alloc(draft%model%start, model%start)
     call move_alloc(draft%model%marker, model%marker)
     call move_alloc(draft%model%point, model%point)
     call move_alloc(draft%model%function, model%function)
@@ -88,6 +95,9 @@ contains
     call move_alloc(draft%model%analysis, model%analysis)
     call move_alloc(draft%model%setting, model%setting)
     call move_alloc(draft%model%imperfection, model%imperfection)
+    call move_alloc(draft%model%kept_node, model%kept_node)
+    call move_alloc(draft%model%kept_member, model%kept_member)
+    model%rayleigh = draft%model%rayleigh
   end subroutine move_model
 
   subroutine compile(table)

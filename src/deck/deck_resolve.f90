@@ -3,15 +3,22 @@ module deck_resolve
   use text, only: to_text, nearest_word
   use diagnostics, only: place_t
   use model_axes, only: orient_members
-  use model_check, only: check_parts, check_members, check_use
+  use model_check, only: check_parts, check_members, check_joints, check_use
   use deck_draft, only: draft_t
   use deck_growth, only: grow
   use deck_sections, only: settle_sections
-  use deck_members, only: expand_beams, set_modes
+  use deck_members, only: expand_beams
+  use deck_joints, only: expand_joints
+  use deck_statuses, only: set_modes
+  use deck_properties, only: set_properties
+  use deck_motion_cards, only: settle_inputs
+  use deck_motions, only: set_motions
+  use deck_starts, only: set_starts, set_masses
   use deck_supports, only: set_supports
   use deck_points, only: neighbours_t, find_neighbours, set_markers
   use deck_loads, only: set_analyses, set_loads
   use deck_targets, only: set_targets
+  use deck_output_cards, only: set_output
   implicit none
   private
 
@@ -30,18 +37,26 @@ contains
     call fit_registries(draft)
     call settle_sections(draft)
     call expand_beams(draft)
+    call expand_joints(draft)
     call check_positions(draft)
     call fit_arrays(draft)
+    call settle_inputs(draft)
     call set_modes(draft)
+    call set_properties(draft)
     call check_parts(draft%model, draft%report)
     call orient_members(draft%model, draft%report)
     call check_members(draft%model, draft%report)
+    call check_joints(draft%model, draft%report)
     call set_supports(draft)
+    call set_masses(draft)
     call find_neighbours(draft, neighbours)
     call set_analyses(draft, pattern)
     call set_markers(draft, neighbours)
     call set_targets(draft)
+    call set_output(draft)
     call set_loads(draft, neighbours, pattern)
+    call set_motions(draft, pattern)
+    call set_starts(draft)
     draft%model%point = draft%model%point(:draft%points)
     if (draft%report%errors() == 0 .and. draft%complete) call check_use(draft%model, draft%report)
     call keep_settings(draft)

@@ -2,7 +2,7 @@
 module deck_section_cards
   use kinds, only: wp
   use errors, only: error_t
-  use text, only: quoted, to_text, upper, joined
+  use text, only: quoted, to_text, upper, lower, joined
   use section_data, only: section_constants_t, section_geometry_t
   use section_check, only: settle_shear
   use section_shapes, only: shape_dimensions_t, shape_rule_t, shape_rule, set_dimension, &
@@ -197,17 +197,6 @@ contains
     end do
     if (any(name == "T")) phrase = phrase//" | OUTER | MIDLINE"
   end function shape_options
-
-  pure function lower(word)
-    character(len=*), intent(in) :: word
-    character(len=len(word)) :: lower
-    integer :: i
-
-    lower = word
-    do i = 1, len(word)
-      if (word(i:i) >= "A" .and. word(i:i) <= "Z") lower(i:i) = achar(iachar(word(i:i)) + 32)
-    end do
-  end function lower
 
   !> SECTION name PLATES: what is drawn by the POINT and PLATE cards behind it.
   subroutine read_plates(card, draft)

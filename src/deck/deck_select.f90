@@ -15,6 +15,7 @@ module deck_select
     integer, allocatable :: index(:)   !< number of the node or beam; a marker as its negative
     integer, allocatable :: part(:)    !< part of the beam; 0: all
     logical, allocatable :: loose(:)   !< selected by ALL: what does not apply is passed over
+    logical, allocatable :: listed(:)  !< selected by ALL, a range or a group
     type(place_t), allocatable :: place(:)
   end type choice_t
 
@@ -74,6 +75,7 @@ contains
     logical, intent(in) :: of_nodes
     type(choice_t), intent(inout) :: choice
     character(len=:), allocatable :: name
+    integer :: before
 
     if (.not. draft%labels%usable(selection%name)) return
     name = quoted(trim(draft%labels%table%name(selection%name)))
@@ -92,7 +94,9 @@ contains
         call draft%report%add_error(selection%place, "group "//name//" contains itself")
       else
         group%open = .true.
+        before = choice%found
         call collect(draft, group%from, group%to, of_nodes, choice)
+        if (choice%found > before) choice%listed(before + 1:choice%found) = .true.
         group%open = .false.
       end if
     end associate
@@ -119,6 +123,9 @@ contains
         if (k == 0 .and. draft%nodes_incomplete) return
       else
         k = draft%beam_ids%find(id, 0)
+        if (k > 0) then
+          if (part > 0 .and. draft%beam(k)%joint > 0) k = 0
+        end if
         if (k > 0) then
           if (part > draft%beam(k)%divide .and. draft%beam(k)%node(1, 1) > 0) k = 0
         end if
@@ -175,6 +182,7 @@ contains
     n = choice%found + 1
     if (.not. allocated(choice%index)) then
       allocate (choice%index(16), choice%part(16), choice%loose(16), choice%place(16))
+      allocate (choice%listed(16))
     end if
     if (n > size(choice%place)) then
       allocate (more(2*n))
@@ -183,10 +191,12 @@ contains
       call grow(choice%index, 2*n)
       call grow(choice%part, 2*n)
       call grow(choice%loose, 2*n)
+      call grow(choice%listed, 2*n)
     end if
     choice%index(n) = index
     choice%part(n) = part
     choice%loose(n) = loose
+    choice%listed(n) = loose .or. selection%is_range
     choice%place(n) = selection%place
     choice%found = n
   end subroutine append

@@ -13,7 +13,7 @@ module deck_targets
   implicit none
   private
 
-  public :: read_control, read_target, set_targets, read_imperfection
+  public :: read_control, read_target, set_targets, read_imperfection, same_place
 
 contains
 
@@ -101,7 +101,7 @@ contains
         call resolve_target(draft, record, choice, target, ok)
         if (.not. ok) cycle
         do k = 1, size(draft%model%analysis)
-          if (.not. same(draft%model%analysis(k)%place, record%place)) cycle
+          if (.not. same_place(draft%model%analysis(k)%place, record%place)) cycle
           if (record%kind == record_control) draft%model%analysis(k)%controlled = target
           if (record%kind == record_stop) draft%model%analysis(k)%stop = target
         end do
@@ -109,11 +109,11 @@ contains
     end do
   end subroutine set_targets
 
-  pure logical function same(a, b)
+  pure logical function same_place(a, b)
     type(place_t), intent(in) :: a, b
 
-    same = a%file == b%file .and. a%line == b%line .and. a%column == b%column
-  end function same
+    same_place = a%file == b%file .and. a%line == b%line .and. a%column == b%column
+  end function same_place
 
   subroutine resolve_target(draft, record, choice, target, ok)
     type(draft_t), intent(inout) :: draft

@@ -4,7 +4,7 @@
 !> coordinates of p and q; the chord stands for r^q - r^p.
 module beam_strains
   use kinds, only: wp
-  use rotation, only: cross, skew, identity3
+  use rotation, only: cross, outer, skew, identity3
   use beam_angles, only: angle_ratio
   implicit none
   private
@@ -325,14 +325,5 @@ contains
       h(:, j) = h(:, j) + x*y(j) + y*x(j)
     end do
   end subroutine add_symmetric
-
-  pure function outer(a, b) result(m)
-    real(wp), intent(in) :: a(3), b(3)
-    real(wp) :: m(3, 3)
-
-    m(:, 1) = a*b(1)
-    m(:, 2) = a*b(2)
-    m(:, 3) = a*b(3)
-  end function outer
 
 end module beam_strains

@@ -12,6 +12,7 @@ module beamw_inertia
   private
 
   public :: inertia_t, new_inertia, inertia_mass, inertia_force, kinetic_energy, weight_force
+  public :: ends_t, ends_of
 
   !> What depends on the element alone.
   type :: inertia_t

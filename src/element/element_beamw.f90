@@ -10,7 +10,7 @@ module element_beamw
   implicit none
   private
 
-  public :: element_beamw_t, new_element_beamw, beamw_strains, beamw_geometric
+  public :: element_beamw_t, new_element_beamw, add_damping, beamw_strains, beamw_geometric
 
   integer, parameter, public :: modes = 8
 
@@ -23,9 +23,11 @@ module element_beamw
     integer :: release(modes) = 0             !< by mode: index in `state%release`; 0: not released
     integer, allocatable :: released(:)       !< the released modes
     type(beamw_t), pointer :: constants => null()  !< shared by all elements that are alike
+    real(wp), allocatable :: viscosity(:, :)  !< (9, 9) stress per rate of strain [F/L T]; or none
   contains
     procedure :: evaluate
     procedure :: law
+    procedure :: damping
   end type element_beamw_t
 
 contains
@@ -68,6 +70,19 @@ contains
     call move_alloc(new, element)
   end subroutine new_element_beamw
 
+  !> Give a beam viscous stresses, (9, 9) per rate of its strains [F L^-1 T].
+  subroutine add_damping(viscosity, element)
+    real(wp), intent(in) :: viscosity(:, :)
+    class(element_t), intent(inout) :: element
+
+    select type (element)
+    type is (element_beamw_t)
+      element%viscosity = viscosity
+      call free_rows(element, element%viscosity)
+      element%damped = .true.
+    end select
+  end subroutine add_damping
+
   pure subroutine evaluate(self, state, stress, strain, jacobian, geometric, valid)
     class(element_beamw_t), intent(in) :: self
     type(state_t), intent(in) :: state
@@ -106,15 +121,31 @@ contains
   pure subroutine law(self, stiffness)
     class(element_beamw_t), intent(in) :: self
     real(wp), intent(out) :: stiffness(self%strains, self%strains)
-    integer :: i
 
     stiffness = self%constants%s
+    call free_rows(self, stiffness)
+  end subroutine law
+
+  pure subroutine damping(self, viscosity)
+    class(element_beamw_t), intent(in) :: self
+    real(wp), intent(out) :: viscosity(self%strains, self%strains)
+
+    viscosity = 0
+    if (allocated(self%viscosity)) viscosity = self%viscosity
+  end subroutine damping
+
+  !> No law for strains that are fixed.
+  pure subroutine free_rows(self, law)
+    class(element_beamw_t), intent(in) :: self
+    real(wp), intent(inout) :: law(self%strains, self%strains)
+    integer :: i
+
     do i = 1, self%strains
       if (.not. self%fixed(i)) cycle
-      stiffness(i, :) = 0
-      stiffness(:, i) = 0
+      law(i, :) = 0
+      law(:, i) = 0
     end do
-  end subroutine law
+  end subroutine free_rows
 
   !> Second-order strains, their derivative to the strains of the nodes, w + Qe, and to the
   !> eleven coordinates of `beam_strains` (theory 5).

@@ -6,7 +6,8 @@ module rotation
   implicit none
   private
 
-  public :: rotation_matrix, rotated, turned, rotation_vector, cross, skew
+  public :: rotation_matrix, rotated, turned, rotation_vector, cross, outer, skew
+  public :: add_skew, add_turned
 
   real(wp), parameter, public :: identity3(3, 3) = &
     reshape([1, 0, 0, 0, 1, 0, 0, 0, 1]*1.0_wp, [3, 3])
@@ -84,14 +85,48 @@ contains
     c = [a(2)*b(3) - a(3)*b(2), a(3)*b(1) - a(1)*b(3), a(1)*b(2) - a(2)*b(1)]
   end function cross
 
+  !> a b', the matrix of a dyadic product.
+  pure function outer(a, b) result(m)
+    real(wp), intent(in) :: a(3), b(3)
+    real(wp) :: m(3, 3)
+
+    m(:, 1) = a*b(1)
+    m(:, 2) = a*b(2)
+    m(:, 3) = a*b(3)
+  end function outer
+
   !> The matrix of a cross product: `matmul(skew(a), b)` is a x b, (3).
   pure function skew(a) result(s)
     real(wp), intent(in) :: a(3)
     real(wp) :: s(3, 3)
 
-    s(:, 1) = [0.0_wp, a(3), -a(2)]
-    s(:, 2) = [-a(3), 0.0_wp, a(1)]
-    s(:, 3) = [a(2), -a(1), 0.0_wp]
+    s = 0
+    call add_skew(1.0_wp, a, s)
   end function skew
+
+  !> matrix + scale skew(a).
+  pure subroutine add_skew(scale, a, matrix)
+    real(wp), intent(in) :: scale, a(3)
+    real(wp), intent(inout) :: matrix(3, 3)
+    real(wp) :: v(3)
+
+    v = scale*a
+    matrix(2, 1) = matrix(2, 1) + v(3)
+    matrix(3, 1) = matrix(3, 1) - v(2)
+    matrix(1, 2) = matrix(1, 2) - v(3)
+    matrix(3, 2) = matrix(3, 2) + v(1)
+    matrix(1, 3) = matrix(1, 3) + v(2)
+    matrix(2, 3) = matrix(2, 3) - v(1)
+  end subroutine add_skew
+
+  !> matrix - matmul(factor, skew(a)): the derivative of `matmul(factor, a)` as `a` is turned.
+  pure subroutine add_turned(factor, a, matrix)
+    real(wp), intent(in) :: factor(3, 3), a(3)
+    real(wp), intent(inout) :: matrix(3, 3)
+
+    matrix(:, 1) = matrix(:, 1) + a(2)*factor(:, 3) - a(3)*factor(:, 2)
+    matrix(:, 2) = matrix(:, 2) + a(3)*factor(:, 1) - a(1)*factor(:, 3)
+    matrix(:, 3) = matrix(:, 3) + a(1)*factor(:, 2) - a(2)*factor(:, 1)
+  end subroutine add_turned
 
 end module rotation

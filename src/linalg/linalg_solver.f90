@@ -37,6 +37,8 @@ module linalg_solver
     procedure :: negative_pivots
     procedure :: determinant_sign
     procedure :: null_pivots
+    procedure :: scales
+    procedure :: set_scales
     procedure :: free
   end type solver_t
 
@@ -207,6 +209,24 @@ contains
       null_pivots = self%mumps%null
     end select
   end function null_pivots
+
+  !> Scales of rows and, if general, columns, with which the next factorization begins: what a
+  !> solver has to know of earlier matrices to round as if it had seen them.
+  pure function scales(self)
+    class(solver_t), intent(in) :: self
+    real(wp) :: scales(size(self%left) + size(self%right))
+
+    scales = [self%left, self%right]
+  end function scales
+
+  !> Begin the next factorization with the scales of another solver of the same pattern.
+  pure subroutine set_scales(self, scales)
+    class(solver_t), intent(inout) :: self
+    real(wp), intent(in) :: scales(:)   !< as `scales` gave them
+
+    self%left = scales(:size(self%left))
+    self%right = scales(size(self%left) + 1:)
+  end subroutine set_scales
 
   !> Give back all memory; harmless when there is none.
   subroutine free(self)

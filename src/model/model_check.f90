@@ -5,11 +5,15 @@ module model_check
   use errors, only: error_t
   use diagnostics, only: place_t, report_t
   use section_check, only: check_constants
-  use model_data, only: model_t, member_t, section_t, mode_flexible, mass_none, analysis_eigen
+  use model_data, only: model_t, member_t, joint_t, section_t, mode_flexible, mode_fixed, &
+                        mass_none, analysis_static, analysis_buckling, joint_truss, joint_hinge, &
+                        joint_spherical, joint_modes, joint_names, translational
   implicit none
   private
 
-  public :: check_parts, check_members, check_use
+  public :: check_parts, check_members, check_joints, check_use
+
+  real(wp), parameter :: no_length = 1.0e-12_wp !< relative to the positions
 
   character(len=*), parameter :: stiffness_names(6) = &
     ["EA ", "GIt", "EIy", "EIy", "EIz", "EIz"]
@@ -97,7 +101,7 @@ contains
     type(member_t), intent(in) :: member
     character(len=*), intent(in) :: name
     type(report_t), intent(inout) :: report
-    integer, parameter :: value(6) = [1, 2, 3, 3, 4, 4]
+    integer, parameter :: value(6) = [1, 2, 3, 3, 4, 4]  !< of ESTIFF and EDAMP
     integer :: mode
 
     if (.not. member%has_stiffness) then
@@ -107,11 +111,67 @@ contains
     end if
     do mode = 1, 6
       if (member%status(mode) /= mode_flexible .or. member%stiffness(value(mode)) > 0.0_wp) cycle
+      if (member%damping(value(mode)) > 0.0_wp) cycle
       call report%add_warning(member%place, "mode "//to_text(mode)//" of "//name// &
                               " is flexible, but its stiffness "//trim(stiffness_names(mode))// &
                               " is 0")
     end do
   end subroutine check_stiffness
+
+  !> What joints need to be complete.
+  subroutine check_joints(model, report)
+    type(model_t), intent(in) :: model
+    type(report_t), intent(inout) :: report
+    character(len=:), allocatable :: name
+    integer :: j, mode
+
+    do j = 1, size(model%joint)
+      associate (joint => model%joint(j))
+        name = "element "//to_text(joint%id)
+        if (joint%section /= 0 .and. joint%material == 0) then
+          call report%add_error(joint%place, name//" has a SECTION but no MATERIAL")
+        else if (joint%section == 0 .and. joint%material /= 0) then
+          call report%add_error(joint%place, name//" has a MATERIAL but no SECTION")
+        else if (joint%section == 0) then
+          do mode = 1, joint_modes(joint%kind)
+            if (joint%status(mode) /= mode_flexible) cycle
+            if (joint%stiffness(mode) > 0.0_wp .or. joint%damping(mode) > 0.0_wp) cycle
+            call report%add_error(joint%place, "mode "//to_text(mode)//" of "//name// &
+                                  " is flexible but has no stiffness", &
+                                  "give it by ESTIFF, or damping by EDAMP, or write RLSE")
+          end do
+        end if
+        call check_length(model, joint, name, report)
+        if (all(joint%kind /= [joint_truss, joint_hinge])) cycle
+        if (joint%status(1) == mode_fixed .and. joint%section == 0) call report%add_warning( &
+          joint%place, name//" is a "//trim(joint_names(joint%kind))//" whose mode 1 has no "// &
+          "DYNE, RLSE or INPUTE: it is rigid")
+      end associate
+    end do
+  end subroutine check_joints
+
+  !> A TRUSS has a length, a SPHERICAL joint has none.
+  subroutine check_length(model, joint, name, report)
+    type(model_t), intent(in) :: model
+    type(joint_t), intent(in) :: joint
+    character(len=*), intent(in) :: name
+    type(report_t), intent(inout) :: report
+    real(wp) :: scale
+    logical :: long
+
+    if (joint%node(translational, 1) == 0) return
+    associate (node => model%node(joint%node(translational, :)))
+      if (.not. all(node%placed)) return
+      scale = maxval(abs(node(1)%position)) + maxval(abs(joint%chord))
+    end associate
+    long = norm2(joint%chord) > no_length*scale
+    if (joint%kind == joint_truss .and. .not. long) call report%add_error(joint%place, name// &
+      " has no length: its nodes are at the same place")
+    if (joint%kind == joint_spherical .and. norm2(joint%chord) > 1.0e-6_wp*scale) then
+      call report%add_warning(joint%place, name//" is a SPHERICAL joint between nodes at "// &
+                              "different places: it keeps the vector between them")
+    end if
+  end subroutine check_length
 
   !> What a model needs to be of use; only worth asking if it has no errors.
   subroutine check_use(model, report)
@@ -121,7 +181,7 @@ contains
     integer :: i
 
     deck_place = place_t(file=1)
-    if (size(model%member) == 0) then
+    if (size(model%member) + size(model%joint) == 0) then
       call report%add_error(deck_place, "the deck has no elements")
       return
     end if
@@ -131,19 +191,20 @@ contains
                                                             to_text(node%id))
       end associate
     end do
-    if (size(model%pattern) == 0 .and. any(model%analysis%kind /= analysis_eigen)) then
+    if (size(model%pattern) == 0 .and. any(model%analysis%kind == analysis_static .or. &
+                                           model%analysis%kind == analysis_buckling)) then
       call report%add_warning(deck_place, "the deck has no loads")
     end if
     do i = 1, size(model%pattern)
       if (.not. any(abs(model%pattern(i)%gravity) > 0)) cycle
       if (has_mass(model)) exit
       call report%add_warning(deck_place, "GRAVITY acts on nothing: no element has mass", &
-                              "MATERIAL ... RHO, or EM")
+                              "MATERIAL ... RHO, EM, or XM")
       exit
     end do
   end subroutine check_use
 
-  !> Does any element have mass?
+  !> Does any element or node have mass?
   pure logical function has_mass(model)
     type(model_t), intent(in) :: model
     integer :: m
@@ -157,7 +218,15 @@ contains
         if (model%material(member%material)%rho > 0.0_wp) return
       end associate
     end do
-    has_mass = .false.
+    do m = 1, size(model%joint)
+      associate (joint => model%joint(m))
+        if (joint%mass == mass_none) cycle
+        if (joint%has_inertia .and. joint%inertia > 0.0_wp) return
+        if (joint%section == 0 .or. joint%material == 0) cycle
+        if (model%material(joint%material)%rho > 0.0_wp) return
+      end associate
+    end do
+    has_mass = any(model%mass%mass > 0.0_wp)
   end function has_mass
 
 end module model_check

@@ -46,6 +46,14 @@ module model_data
   integer, parameter, public :: analysis_static = 1, analysis_buckling = 2, analysis_eigen = 3, &
                                 analysis_transient = 4, analysis_kinematic = 5, &
                                 analysis_inverse = 6, analysis_compliance = 7
+  character(len=10), parameter, public :: analysis_names(7) = &
+    ["STATIC    ", "BUCKLING  ", "EIGEN     ", "TRANSIENT ", "KINEMATIC ", "INVERSE   ", &
+     "COMPLIANCE"]
+
+  !> Those that follow time, and those that end with modes.
+  integer, parameter, public :: time_analyses(3) = [analysis_transient, analysis_kinematic, &
+                                                    analysis_inverse]
+  integer, parameter, public :: mode_analyses(2) = [analysis_buckling, analysis_eigen]
 
   !> What a STATIC analysis controls, and what it does about stability.
   integer, parameter, public :: control_load = 0, control_displacement = 1, control_arc = 2
@@ -229,7 +237,7 @@ module model_data
     integer :: kind = analysis_static
     character(len=name_length) :: name = ""   !< NAME; empty: the default group name
     integer :: pattern = 0                    !< the pattern it ramps; 0: none
-    integer :: steps = 10                     !< equal steps to record
+    integer :: steps = 10                     !< equal steps to record; in time, about how many
     real(wp) :: factor = 1.0_wp               !< TO: load factor at the end
     real(wp) :: tolerance = 0.0_wp            !< TOL; 0: the default of the analysis
     integer :: iterations = 0                 !< MAXITER; 0: the default

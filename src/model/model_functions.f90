@@ -1,16 +1,33 @@
-!> Values of the functions that replace the load factor.
+!> Values and derivatives of the functions that replace the load factor.
 module model_functions
   use kinds, only: wp
   use formula, only: formula_value
+  use formula_derivatives, only: formula_jet
   use model_data, only: function_t, function_ramp, function_sine, function_step, function_table
   implicit none
   private
 
-  public :: function_value
+  public :: function_value, function_jet, next_jump
 
   real(wp), parameter :: pi = acos(-1.0_wp)
 
 contains
+
+  !> The first jump of a function behind s; huge if there is none.
+  pure function next_jump(f, s) result(jump)
+    type(function_t), intent(in) :: f
+    real(wp), intent(in) :: s
+    real(wp) :: jump
+    integer :: i
+
+    jump = huge(jump)
+    if (f%kind == function_step .and. f%parameter(1) > s) jump = f%parameter(1)
+    if (f%kind /= function_table) return
+    do i = size(f%table, 2) - 1, 1, -1
+      if (f%table(1, i) < f%table(1, i + 1) .or. f%table(1, i) <= s) cycle
+      jump = f%table(1, i)
+    end do
+  end function next_jump
 
   !> f(s), s being the load factor or time; NaN where a formula has no finite value.
   pure function function_value(f, s) result(value)
@@ -34,12 +51,68 @@ contains
     end associate
   end function function_value
 
+  !> f, df/ds and d2f/ds2, at kinks and jumps those to the right; NaN where a formula has none.
+  pure subroutine function_jet(f, s, jet)
+    type(function_t), intent(in) :: f
+    real(wp), intent(in) :: s
+    real(wp), intent(out) :: jet(0:2)
+    real(wp) :: rate
+
+    jet = 0
+    jet(0) = function_value(f, s)
+    associate (p => f%parameter)
+      select case (f%kind)
+      case (function_ramp)
+        if (s >= p(1) .and. s < p(2)) jet(1) = 1/(p(2) - p(1))
+      case (function_sine)
+        rate = 2.0_wp*pi*p(2)
+        jet(1) = rate*p(1)*cos(rate*s + p(3))
+        jet(2) = -rate**2*jet(0)
+      case (function_step)
+      case (function_table)
+        jet(1) = table_slope(f%table, s)
+      case default
+        call formula_jet(f%formula, s, jet)
+      end select
+    end associate
+  end subroutine function_jet
+
   !> Linear between the rows' pairs, constant outside; at a jump the value behind it.
   pure function table_value(table, s) result(value)
     real(wp), intent(in) :: table(:, :)  !< 2 x n: abscissas, not falling, and values
     real(wp), intent(in) :: s
     real(wp) :: value
-    integer :: low, high, middle
+    integer :: low
+
+    low = table_row(table, s)
+    if (low == 0) then
+      value = table(2, 1)
+    else if (low == size(table, 2)) then
+      value = table(2, low)
+    else
+      value = table(2, low) + (table(2, low + 1) - table(2, low)) &
+              *(s - table(1, low))/(table(1, low + 1) - table(1, low))
+    end if
+  end function table_value
+
+  !> Slope to the right of s.
+  pure function table_slope(table, s) result(slope)
+    real(wp), intent(in) :: table(:, :)  !< as for `table_value`
+    real(wp), intent(in) :: s
+    real(wp) :: slope
+    integer :: low
+
+    low = table_row(table, s)
+    slope = 0
+    if (low == 0 .or. low == size(table, 2)) return
+    slope = (table(2, low + 1) - table(2, low))/(table(1, low + 1) - table(1, low))
+  end function table_slope
+
+  !> The last pair at or before s; 0: none.
+  pure integer function table_row(table, s) result(low)
+    real(wp), intent(in) :: table(:, :)
+    real(wp), intent(in) :: s
+    integer :: high, middle
 
     low = 0
     high = size(table, 2) + 1
@@ -51,14 +124,6 @@ contains
         high = middle
       end if
     end do
-    if (low == 0) then
-      value = table(2, 1)
-    else if (low == size(table, 2)) then
-      value = table(2, low)
-    else
-      value = table(2, low) + (table(2, high) - table(2, low)) &
-              *(s - table(1, low))/(table(1, high) - table(1, low))
-    end if
-  end function table_value
+  end function table_row
 
 end module model_functions

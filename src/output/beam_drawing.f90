@@ -22,7 +22,7 @@ module beam_drawing
 
 contains
 
-  !> Displacement [L] and rotation vector [rad] of all points of a mesh.
+  !> Displacement [L] and rotation vector [rad] of all points of a mesh; bars have no rotation.
   pure subroutine draw_motion(mesh, posture, displacement, rotation)
     type(mesh_t), intent(in) :: mesh
     type(posture_t), intent(in) :: posture
@@ -43,6 +43,11 @@ contains
           n = n + corners
         end do
       end associate
+    end do
+    do e = 1, size(mesh%bar)
+      n = mesh%bar(e)%first
+      displacement(:, n + 1:n + 2) = posture%displacement(:, mesh%bar(e)%node)
+      rotation(:, n + 1:n + 2) = 0
     end do
   end subroutine draw_motion
 
@@ -92,6 +97,10 @@ contains
     do e = 1, size(mesh%beam)
       length = max(length, norm2(mesh%beam(e)%ends%chord))
     end do
+    do e = 1, size(mesh%bar)
+      n = mesh%bar(e)%first
+      length = max(length, norm2(mesh%position(:, n + 2) - mesh%position(:, n + 1)))
+    end do
     step = max(maxval(abs(rotation)), maxval(abs(displacement))/length, &
                maxval(abs(warping))*length, tiny(1.0_wp)/small_angle)
     step = small_angle/step
@@ -133,25 +142,32 @@ contains
     end do
   end subroutine mode_forces
 
-  !> Section forces in the cells, linear along the beams.
-  pure subroutine draw_forces(mesh, force_p, force_q, force)
+  !> Section forces in the cells, linear along the beams; bars have a normal force.
+  pure subroutine draw_forces(mesh, force_p, force_q, joint_stress, force)
     type(mesh_t), intent(in) :: mesh
     real(wp), intent(in) :: force_p(:, :), force_q(:, :)   !< (7, members) N Vy Vz T My Mz B
+    real(wp), intent(in) :: joint_stress(:, :)         !< (modes, joints)
     real(sp), intent(out) :: force(:, :)               !< (7, cells)
-    integer :: i
+    integer :: i, beams
 
-    do i = 1, size(mesh%owner)
+    beams = size(mesh%owner) - size(mesh%bar)
+    do i = 1, size(mesh%bar)
+      force(:, beams + i) = 0
+      force(1, beams + i) = real(joint_stress(1, mesh%bar(i)%joint), sp)
+    end do
+    do i = 1, beams
       associate (e => mesh%owner(i), xi => mesh%middle(i))
         force(:, i) = real((1 - xi)*force_p(:, e) + xi*force_q(:, e), sp)
       end associate
     end do
   end subroutine draw_forces
 
-  !> Axial stress at the points, from section forces linear along the beams; 0 where the section is
-  !> unknown.
-  pure subroutine draw_stress(mesh, force_p, force_q, stress)
+  !> Axial stress at the points, from section forces linear along the beams and from the forces of
+  !> bars; 0 where the section is unknown.
+  pure subroutine draw_stress(mesh, force_p, force_q, joint_stress, stress)
     type(mesh_t), intent(in) :: mesh
     real(wp), intent(in) :: force_p(:, :), force_q(:, :)   !< (7, members) N Vy Vz T My Mz B
+    real(wp), intent(in) :: joint_stress(:, :)         !< (modes, joints)
     real(sp), intent(out) :: stress(:)                 !< (points) [F L^-2]
     real(wp) :: force(7), xi
     integer :: e, i, k, n
@@ -170,6 +186,11 @@ contains
           end do
         end do
       end associate
+    end do
+    do e = 1, size(mesh%bar)
+      n = mesh%bar(e)%first
+      if (mesh%bar(e)%area > 0) stress(n + 1:n + 2) = &
+        real(joint_stress(1, mesh%bar(e)%joint)/mesh%bar(e)%area, sp)
     end do
   end subroutine draw_stress
 

@@ -1,16 +1,16 @@
 !> The undeformed model as a mesh of VTK: beams as lines or as their sections' outlines swept
-!> along them.
+!> along them, trusses as straight lines. Other joints are not drawn.
 module beam_mesh
   use kinds, only: wp
   use section_data, only: section_constants_t, section_geometry_t, section_open, section_closed
   use beamw_rigidity, only: rigidity_t, shear_compliance
   use beam_curve, only: beam_shape_t
-  use model_data, only: model_t, member_t, mode_flexible
+  use model_data, only: model_t, member_t, mode_flexible, joint_truss
   use system_constants, only: member_rigidity
   implicit none
   private
 
-  public :: mesh_t, profile_t, beam_t, new_mesh
+  public :: mesh_t, profile_t, beam_t, bar_t, new_mesh
 
   !> Cell types of VTK.
   integer, parameter, public :: line_cell = 3, polygon_cell = 7, quad_cell = 9
@@ -36,15 +36,24 @@ module beam_mesh
     type(beam_shape_t) :: ends    !< undeformed
   end type beam_t
 
+  !> A truss of the model.
+  type :: bar_t
+    integer :: joint = 0          !< index
+    integer :: node(2) = 0        !< translational nodes p and q
+    integer :: first = 0          !< points of the mesh before its own two
+    real(wp) :: area = 0.0_wp     !< [L^2], 0 if unknown
+  end type bar_t
+
   type :: mesh_t
     integer :: segments = 1                     !< pieces of a beam
     type(profile_t), allocatable :: profile(:)  !< of the sections; the last is a line
     type(beam_t), allocatable :: beam(:)
-    real(wp), allocatable :: position(:, :)     !< (3, points), by beam, station, corner [L]
+    type(bar_t), allocatable :: bar(:)
+    real(wp), allocatable :: position(:, :)     !< (3, points), by beam, station, corner; bars [L]
     integer, allocatable :: corners(:)          !< points of the cells from 0, cell by cell
     integer, allocatable :: offset(:)           !< by cell: entries of `corners` before; one more
     integer, allocatable :: kind(:)             !< by cell: type of VTK
-    integer, allocatable :: owner(:)            !< by cell: its beam
+    integer, allocatable :: owner(:)            !< by cell: its beam; the last are the bars
     real(wp), allocatable :: middle(:)          !< by cell: its place along the beam, 0 to 1
   end type mesh_t
 
@@ -70,7 +79,8 @@ contains
       mesh%beam(e)%first = points
       points = points + (mesh%segments + 1)*size(mesh%profile(mesh%beam(e)%profile)%omega)
     end do
-    allocate (mesh%position(3, points))
+    call new_bars(model, points, mesh%bar)
+    allocate (mesh%position(3, points + 2*size(mesh%bar)))
     call place_points(model, mesh)
     call make_cells(model, mesh)
   end subroutine new_mesh
@@ -116,6 +126,24 @@ contains
       beam%ends%shear = phi(3)/(1 + phi(3))
     end associate
   end subroutine new_beam
+
+  pure subroutine new_bars(model, points, bar)
+    type(model_t), intent(in) :: model
+    integer, intent(in) :: points          !< of the beams
+    type(bar_t), allocatable, intent(out) :: bar(:)
+    integer :: i, n
+
+    allocate (bar(count(model%joint%kind == joint_truss)))
+    n = 0
+    do i = 1, size(model%joint)
+      associate (joint => model%joint(i))
+        if (joint%kind /= joint_truss) cycle
+        n = n + 1
+        bar(n) = bar_t(i, joint%node(1, :), points + 2*(n - 1))
+        if (joint%section > 0) bar(n)%area = model%section(joint%section)%constants%a
+      end associate
+    end do
+  end subroutine new_bars
 
   pure subroutine new_line(profile)
     type(profile_t), intent(out) :: profile
@@ -171,6 +199,12 @@ contains
         end do
       end associate
     end do
+    do e = 1, size(mesh%bar)
+      n = mesh%bar(e)%first
+      do i = 1, 2
+        mesh%position(:, n + i) = model%node(mesh%bar(e)%node(i))%position
+      end do
+    end do
   end subroutine place_points
 
   !> There are no more cells than points and, on average, no more than four corners to a cell.
@@ -202,6 +236,9 @@ contains
           if (ends(model%member(e)%node(1, i)) == 1) call add_cap(mesh, e, i, cells)
         end do
       end if
+    end do
+    do e = 1, size(mesh%bar)
+      call add_cell(mesh, mesh%bar(e)%first + [0, 1], line_cell, 0, 0.5_wp, cells)
     end do
     mesh%corners = mesh%corners(:mesh%offset(cells + 1))
     mesh%offset = mesh%offset(:cells + 1)

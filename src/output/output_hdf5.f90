@@ -26,7 +26,7 @@ module output_hdf5
 
   !> What a dataset holds; kept as its attributes.
   type :: about_t
-    character(len=60) :: dimension = "1"     !< of all columns or each, see `output_dimensions`
+    character(len=220) :: dimension = "1"     !< of all columns or each, see `output_dimensions`
     character(len=80) :: axes = ""           !< one after the other, separated by semicolons
     character(len=120) :: description = ""
   end type about_t
@@ -45,10 +45,10 @@ module output_hdf5
     procedure :: set_number
     procedure :: set_text
     procedure :: describe
-    procedure, private :: write_integers, write_integer_table, write_reals, write_real_table
-    procedure, private :: write_text, write_texts
+    procedure, private :: write_integers, write_integer_table, write_reals, write_real_table, &
+                          write_real_tables, write_text, write_texts
     generic :: write => write_integers, write_integer_table, write_reals, write_real_table, &
-                        write_text, write_texts
+                        write_real_tables, write_text, write_texts
   end type hdf5_file_t
 
   integer(hsize_t), parameter :: scalar(0) = 0_hsize_t
@@ -295,6 +295,20 @@ contains
     call write_dataset(self, path, h5t_ieee_f64le, h5t_native_double, &
                        int([size(values, 1), size(values, 2)], hsize_t), address, about)
   end subroutine write_real_table
+
+  !> A table for each entry of a list.
+  subroutine write_real_tables(self, path, values, about)
+    class(hdf5_file_t), intent(inout) :: self
+    character(len=*), intent(in) :: path
+    real(wp), intent(in), contiguous, target :: values(:, :, :)  !< (columns, rows, entries)
+    type(about_t), intent(in) :: about
+    type(c_ptr) :: address
+
+    address = c_null_ptr
+    if (size(values) > 0) address = c_loc(values)
+    call write_dataset(self, path, h5t_ieee_f64le, h5t_native_double, &
+                       shape(values, kind=hsize_t), address, about)
+  end subroutine write_real_tables
 
   !> One text, whatever its length.
   subroutine write_text(self, path, text, about)

@@ -89,6 +89,8 @@ contains
     if (reader%has(group//"/step")) then
       info%steps = rows(reader, group//"/step")
       call read_one(reader, group//"/load_factor", info%steps, "load factor", info, error)
+      if (allocated(error)) return
+      call read_one(reader, group//"/time", info%steps, "time", info, error)
     else if (reader%has(group//"/multiplier")) then
       info%modes = rows(reader, group//"/multiplier")
       call find_critical(reader, group//"/multiplier", at, error)
@@ -151,12 +153,14 @@ contains
     type(analysis_info_t), intent(in) :: a
     character(len=:), allocatable :: line
 
-    line = a%group//"  "//a%kind//", "
-    if (a%kind == "static") then
-      line = line//plural(a%steps, "step")
-    else
-      line = line//plural(a%modes, "mode")
-    end if
+    line = a%group//"  "//a%kind
+    select case (a%kind)
+    case ("buckling", "eigen")
+      line = line//", "//plural(a%modes, "mode")
+    case ("compliance")
+    case default
+      line = line//", "//plural(a%steps, "step")
+    end select
     if (a%quantity /= "") line = line//", "//a%quantity//" "//to_text(a%last, 8)
     if (.not. a%complete) line = line//", NOT complete"
   end function analysis_line

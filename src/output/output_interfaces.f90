@@ -1,11 +1,11 @@
-!> Procedures of the C library that handle files.
+!> Procedures of the C library: files, the environment, memory.
 module output_interfaces
-  use, intrinsic :: iso_c_binding, only: c_int, c_char, c_ptr
+  use, intrinsic :: iso_c_binding, only: c_int, c_char, c_ptr, c_size_t
   implicit none
   private
 
-  public :: c_rename, c_remove, c_fopen, c_fclose, c_fileno, c_flock, c_isatty, c_setenv, &
-            c_unsetenv
+  public :: c_rename, c_remove, c_fopen, c_fclose, c_fileno, c_flock, c_isatty, c_memcpy, &
+            c_setenv, c_unsetenv
 
   interface
     integer(c_int) function c_rename(from, to) bind(c, name="rename")
@@ -49,6 +49,14 @@ module output_interfaces
       implicit none
       integer(c_int), value :: descriptor
     end function c_isatty
+
+    !> Copy `bytes` bytes.
+    type(c_ptr) function c_memcpy(to, from, bytes) bind(c, name="memcpy")
+      import :: c_ptr, c_size_t
+      implicit none
+      type(c_ptr), value :: to, from
+      integer(c_size_t), value :: bytes
+    end function c_memcpy
 
     integer(c_int) function c_setenv(name, value, overwrite) bind(c, name="setenv")
       import :: c_int, c_char

@@ -4,13 +4,13 @@ module output_log
   use, intrinsic :: iso_fortran_env, only: output_unit, error_unit
   use kinds, only: wp, i8
   use text, only: to_text, plural, string_t
-  use model_data, only: model_t, analysis_t, analysis_static, analysis_buckling, control_load, &
-                        control_arc
+  use model_data, only: model_t, analysis_t, analysis_buckling, analysis_compliance, &
+                        analysis_names, time_analyses, mode_analyses, control_load, control_arc
   use program_version, only: program_name, version
-  use recorder, only: step_t, iteration_t
+  use recorder, only: step_t, iteration_t, compliance_line
   use mode_results, only: modes_t, mode_lines
   use system_results, only: results_t
-  use output_files, only: error_is_terminal
+  use output_progress, only: progress_t, seconds_since, time_line
   implicit none
   private
 
@@ -19,31 +19,33 @@ module output_log
   integer, parameter, public :: log_quiet = 0, log_normal = 1, log_verbose = 2
 
   integer, parameter :: most_rows = 40                   !< of the table of an analysis
-  real(wp), parameter :: patience = 0.5_wp, pause = 0.1_wp  !< first progress line, later ones [s]
-  character(len=*), parameter :: erase = achar(13)//achar(27)//"[K"
-  character(len=*), parameter :: kind_names(3) = ["STATIC  ", "BUCKLING", "EIGEN   "]
+  real(wp), parameter :: pause = 0.1_wp, long_pause = 2.0_wp  !< between lines of progress [s]
 
   !> What the summary says of an analysis.
   type :: summary_t
     character(len=:), allocatable :: name
     integer :: steps = 0, iterations = 0, cutbacks = 0
-    real(wp) :: factor = 0.0_wp
+    logical :: in_time = .false.
+    real(wp) :: factor = 0.0_wp                  !< load factor or time
     real(wp) :: largest = 0.0_wp                 !< displacement at the end
-    character(len=:), allocatable :: where       !< its node
-    integer :: modes = -1                        !< found; -1: it has steps
+    integer :: where = 0                         !< its node
+    integer :: found = -1                        !< modes, or nodes asked for; -1: it has steps
+    character(len=4) :: noun = "mode"            !< what `found` counts
     logical :: complete = .false.
   end type summary_t
 
   type :: run_log_t
     private
     integer :: level = log_normal
-    logical :: progress = .false.       !< a progress line may be shown
-    logical :: shown = .false.          !< and is now
-    integer(i8) :: start = 0, shown_at = 0   !< clock
+    type(progress_t) :: progress
+    integer(i8) :: start = 0, begun = 0      !< clock, of the run and of the present analysis
     integer :: steps = 0                !< of the present analysis, at most
     integer :: every = 1                !< steps from one row of its table to the next
     logical :: counted = .true.         !< it makes exactly so many steps
-    character(len=:), allocatable :: row     !< of the last step, if not yet printed
+    logical :: in_time = .false.        !< its steps have a time, else a load factor
+    real(wp) :: start_time = 0.0_wp, end_time = 0.0_wp   !< of a motion in time [T]
+    type(step_t) :: last                !< step
+    logical :: printed = .true.         !< it has its row
     integer :: warnings = 0
     character(len=20), allocatable :: node(:)
     type(summary_t), allocatable :: summary(:)
@@ -55,6 +57,7 @@ module output_log
     procedure :: remark => log_remark
     procedure :: step => log_step
     procedure :: modes => log_modes
+    procedure :: compliance => log_compliance
     procedure :: finish => finish_analysis
     procedure :: close => close_log
   end type run_log_t
@@ -71,10 +74,8 @@ contains
     integer :: i
 
     self%level = level
-    self%progress = progress .and. level > log_quiet
-    if (self%progress) self%progress = error_is_terminal()
+    call self%progress%open(progress .and. level > log_quiet)
     call system_clock(self%start)
-    self%shown_at = self%start
     allocate (self%node(size(model%node)), self%summary(size(model%analysis)))
     do i = 1, size(model%node)
       self%node(i) = to_text(model%node(i)%id)
@@ -96,7 +97,7 @@ contains
     integer :: status
 
     if (self%level == log_quiet) return
-    call hide_progress(self)
+    call self%progress%hide()
     write (output_unit, "(a)", iostat=status) line
     if (status /= 0) self%level = log_quiet
   end subroutine say
@@ -107,35 +108,62 @@ contains
     type(analysis_t), intent(in) :: analysis
 
     self%analyses = number
+    self%in_time = any(time_analyses == analysis%kind)
     self%counted = analysis%control /= control_arc
     self%steps = merge(analysis%steps, analysis%most_steps, self%counted)
+    if (self%in_time) self%counted = max(analysis%time_step, analysis%every) > 0
     self%every = row_distance(self%steps)
-    self%row = ""
+    self%printed = .true.
+    self%start_time = max(self%start_time, self%last%time)
+    self%end_time = analysis%end_time
+    call system_clock(self%begun)
     if (self%level == log_verbose) self%every = 1
     associate (summary => self%summary(number))
-      summary%name = to_text(number)//" "//trim(kind_names(analysis%kind))
+      summary%name = to_text(number)//" "//trim(analysis_names(analysis%kind))
       if (analysis%name /= "") summary%name = summary%name//" "//trim(analysis%name)
-      summary%where = ""
       call say(self, "")
       call say(self, "Analysis "//summary%name//": "//purpose(analysis))
-      if (analysis%kind /= analysis_static) summary%modes = 0
+      if (any(mode_analyses == analysis%kind)) summary%found = 0
+      if (analysis%kind == analysis_compliance) then
+        summary%found = size(analysis%node)
+        summary%noun = "node"
+      end if
+      summary%in_time = self%in_time
     end associate
-    if (analysis%kind /= analysis_static) return
+    if (any([mode_analyses, analysis_compliance] == analysis%kind)) return
     if (self%level == log_verbose) then
-      call say(self, "    step   load factor   iteration   residual   increment")
+      call say(self, "    step   "//progress_name(self)//"   iteration   residual   increment")
     else
-      call say(self, "    step   load factor   iterations   residual   increment"// &
+      call say(self, "    step   "//progress_name(self)//repeat("   step size", &
+               merge(1, 0, self%in_time))//"   iterations   residual   increment"// &
                "   largest displacement")
     end if
   end subroutine begin_analysis
+
+  !> What tells the steps of the present analysis apart.
+  pure character(len=11) function progress_name(self)
+    type(run_log_t), intent(in) :: self
+
+    progress_name = merge("       time", "load factor", self%in_time)
+  end function progress_name
 
   pure function purpose(analysis)
     type(analysis_t), intent(in) :: analysis
     character(len=:), allocatable :: purpose
 
-    if (analysis%kind /= analysis_static) then
+    if (any(mode_analyses == analysis%kind)) then
       purpose = plural(analysis%modes, "mode")
       if (analysis%kind == analysis_buckling) purpose = purpose//" of each sign"
+      return
+    else if (any(time_analyses == analysis%kind)) then
+      purpose = "to time "//to_text(analysis%end_time)//", steps of "//to_text(analysis%time_step)
+      if (.not. analysis%time_step > 0) then
+        purpose = "to time "//to_text(analysis%end_time)//", tolerance "// &
+                  to_text(analysis%tolerance)
+      end if
+      return
+    else if (analysis%kind == analysis_compliance) then
+      purpose = plural(size(analysis%node), "node")
       return
     end if
     purpose = plural(analysis%steps, "step")
@@ -169,14 +197,17 @@ contains
   end subroutine log_iteration
 
   !> The columns that steps and iterations have in common.
-  function row(step, factor, count, width, iteration) result(line)
+  function row(step, factor, count, width, iteration, step_size) result(line)
     integer, intent(in) :: step, count
     real(wp), intent(in) :: factor
     integer, intent(in) :: width                !< of the column of `count`
     type(iteration_t), intent(in) :: iteration
+    real(wp), intent(in), optional :: step_size
     character(len=:), allocatable :: line
 
-    line = right(to_text(step), 8)//right(to_text(factor), 14)//right(to_text(count), width)// &
+    line = right(to_text(step), 8)//right(to_text(factor), 14)
+    if (present(step_size)) line = line//right(to_text(step_size, 4), 12)
+    line = line//right(to_text(count), width)// &
            right(small(iteration%residual), 11)//right(small(iteration%increment), 12)
   end function row
 
@@ -210,7 +241,7 @@ contains
     end if
     self%warnings = self%warnings + 1
     if (self%level == log_quiet) return
-    call hide_progress(self)
+    call self%progress%hide()
     write (error_unit, "(a)", iostat=status) text
     if (status /= 0) self%level = log_quiet
   end subroutine log_remark
@@ -219,35 +250,40 @@ contains
     class(run_log_t), intent(inout) :: self
     type(step_t), intent(in) :: step
     type(results_t), intent(in) :: results
-    integer :: i, largest
-    character(len=:), allocatable :: tail
+    real(wp) :: square(size(results%displacement, 2))
 
     if (self%level == log_quiet) return
-    largest = 1
-    do i = 2, size(results%displacement, 2)
-      if (norm2(results%displacement(:, i)) > norm2(results%displacement(:, largest))) largest = i
-    end do
+    square = sum(results%displacement**2, 1)
     associate (summary => self%summary(self%analyses))
       summary%steps = step%step
       summary%iterations = summary%iterations + step%iterations
       summary%cutbacks = summary%cutbacks + step%cutbacks
-      summary%factor = step%factor
-      summary%largest = norm2(results%displacement(:, largest))
-      summary%where = trim(self%node(largest))
-      if (self%level == log_verbose) return
-      tail = right(to_text(summary%largest, 5), 14)//" at node "//summary%where
+      summary%factor = merge(step%time, step%factor, self%in_time)
+      summary%where = maxloc(square, 1)
+      summary%largest = sqrt(square(summary%where))
     end associate
-    self%row = row(step%step, step%factor, step%iterations, 13, step%last)//tail
-    if (step%step > 1 .and. modulo(step%step, self%every) > 0) return
-    call print_row(self)
+    self%last = step
+    self%printed = self%level == log_verbose
+    if (step%step <= 1 .or. modulo(step%step, self%every) == 0) call print_row(self)
+    if (self%in_time) call show_time(self)
   end subroutine log_step
 
   !> Print the row of the last step, unless it was.
   subroutine print_row(self)
     type(run_log_t), intent(inout) :: self
+    character(len=:), allocatable :: line
 
-    if (self%row /= "") call say(self, self%row)
-    self%row = ""
+    if (self%printed) return
+    self%printed = .true.
+    associate (step => self%last, summary => self%summary(self%analyses))
+      if (self%in_time) then
+        line = row(step%step, step%time, step%iterations, 13, step%last, step%size)
+      else
+        line = row(step%step, step%factor, step%iterations, 13, step%last)
+      end if
+      call say(self, line//right(to_text(summary%largest, 5), 14)//" at node "// &
+               trim(self%node(summary%where)))
+    end associate
   end subroutine print_row
 
   !> The table of the modes.
@@ -263,15 +299,27 @@ contains
       call say(self, line(i)%s)
     end do
     if (i <= size(line)) call say(self, "   ... and "//plural(size(line) - i + 1, "mode")//" more")
-    self%summary(self%analyses)%modes = modes_found%modes
+    self%summary(self%analyses)%found = modes_found%modes
   end subroutine log_modes
+
+  !> The nodes' compliances in their own directions.
+  subroutine log_compliance(self, node, matrix)
+    class(run_log_t), intent(inout) :: self
+    integer, intent(in) :: node(:)
+    real(wp), intent(in) :: matrix(:, :, :)
+    integer :: i
+
+    do i = 1, size(node)
+      call say(self, "    "//compliance_line("node "//trim(self%node(node(i))), matrix(:, :, i)))
+    end do
+  end subroutine log_compliance
 
   subroutine finish_analysis(self, complete)
     class(run_log_t), intent(inout) :: self
     logical, intent(in) :: complete
 
     self%summary(self%analyses)%complete = complete
-    call hide_progress(self)
+    call self%progress%hide()
     call print_row(self)
   end subroutine finish_analysis
 
@@ -281,31 +329,34 @@ contains
     character(len=*), intent(in) :: path   !< result file; empty: there is none
     integer :: i, width
 
-    call hide_progress(self)
+    call self%progress%hide()
     if (self%analyses > 0) then
       width = 8
       do i = 1, self%analyses
         width = max(width, len(self%summary(i)%name))
       end do
       call say(self, "")
-      call say(self, "Analysis"//repeat(" ", width - 8)// &
-               "   steps   load factor   iterations   cut-backs   largest displacement")
+      call say(self, "Analysis"//repeat(" ", width - 8)//"   steps"// &
+               merge("  factor, time", "   load factor", &
+                     any(self%summary(:self%analyses)%in_time))// &
+               "   iterations   cut-backs   largest displacement")
       do i = 1, self%analyses
-        call say(self, summary_row(self%summary(i), width))
+        call say(self, summary_row(self, self%summary(i), width))
       end do
     end if
     if (self%warnings > 0) call say(self, plural(self%warnings, "warning"))
     if (path /= "") call say(self, "Results in "//path//", "//elapsed(self)//" s")
   end subroutine close_log
 
-  function summary_row(summary, width) result(line)
+  function summary_row(self, summary, width) result(line)
+    type(run_log_t), intent(in) :: self
     type(summary_t), intent(in) :: summary
     integer, intent(in) :: width
     character(len=:), allocatable :: line
 
-    if (summary%modes >= 0) then
-      line = summary%name//repeat(" ", width - len(summary%name))//"   "//plural(summary%modes, &
-        "mode")
+    if (summary%found >= 0) then
+      line = summary%name//repeat(" ", width - len(summary%name))//"   "//plural(summary%found, &
+        summary%noun)
       if (.not. summary%complete) line = line//"   (not complete)"
       return
     end if
@@ -313,7 +364,7 @@ contains
            right(to_text(summary%steps), 8)//right(to_text(summary%factor), 14)// &
            right(to_text(summary%iterations), 13)//right(to_text(summary%cutbacks), 12)
     if (summary%steps > 0) line = line//right(to_text(summary%largest, 5), 14)//" at node "// &
-                                  summary%where
+                                  trim(self%node(summary%where))
     if (.not. summary%complete) line = line//"   (not complete)"
   end function summary_row
 
@@ -325,42 +376,30 @@ contains
     word = to_text(max(0.001_wp, seconds_since(self%start)), 2)
   end function elapsed
 
-  function seconds_since(start) result(seconds)
-    integer(i8), intent(in) :: start
-    real(wp) :: seconds
-    integer(i8) :: now, rate
-
-    call system_clock(now, rate)
-    seconds = real(now - start, wp)/real(rate, wp)
-  end function seconds_since
-
-  !> Overwrite the progress line, from time to time.
+  !> How far the iterations are; a motion in time shows its steps.
   subroutine show_progress(self, iteration)
     type(run_log_t), intent(inout) :: self
     type(iteration_t), intent(in) :: iteration
     character(len=:), allocatable :: line
-    integer :: status
 
-    if (.not. self%progress) return
-    if (seconds_since(self%shown_at) < merge(pause, patience, self%shown_at > self%start)) return
-    call system_clock(self%shown_at)
-    self%shown = .true.
+    if (self%in_time) return
+    if (.not. self%progress%due(pause)) return
     line = self%summary(self%analyses)%name//": step "//to_text(iteration%step)//" of "// &
-           to_text(self%steps)//", load factor "//to_text(iteration%factor)//", iteration "// &
+           to_text(self%steps)//", "//trim(adjustl(progress_name(self)))//" "// &
+           to_text(iteration%factor)//", iteration "// &
            to_text(iteration%iteration)
     if (self%counted) line = line//", "//to_text((100*(iteration%step - 1))/self%steps)//" %"
-    write (error_unit, "(a)", advance="no", iostat=status) erase//line
-    if (status == 0) flush (error_unit)
+    call self%progress%show(line)
   end subroutine show_progress
 
-  subroutine hide_progress(self)
+  subroutine show_time(self)
     type(run_log_t), intent(inout) :: self
-    integer :: status
 
-    if (.not. self%shown) return
-    write (error_unit, "(a)", advance="no", iostat=status) erase
-    if (status == 0) flush (error_unit)
-    self%shown = .false.
-  end subroutine hide_progress
+    if (.not. self%progress%due(long_pause)) return
+    associate (summary => self%summary(self%analyses))
+      call self%progress%show(summary%name//": "//time_line(self%start_time, self%last%time, &
+        self%end_time, summary%steps, seconds_since(self%begun)))
+    end associate
+  end subroutine show_time
 
 end module output_log

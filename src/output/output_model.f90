@@ -5,13 +5,14 @@ module output_model
                         warping
   use output_hdf5, only: hdf5_file_t, about_t
   use output_drawings, only: write_drawings, write_stress_places
+  use output_joints, only: write_joints, write_masses
   implicit none
   private
 
   public :: write_deck, write_model
 
   integer, parameter :: dof_missing = 0, dof_free = 1, dof_fixed = 2
-  character(len=*), parameter :: type_names(1) = ["BEAMW"]
+  character(len=*), parameter :: type_names(2) = ["BEAMW", "BEAM "]
 
 contains
 
@@ -50,7 +51,7 @@ contains
     call file%write("deck/settings/value", value, about_t("1", "setting", "their values"))
   end subroutine write_settings
 
-  !> Nodes, elements, sections, materials, constraints.
+  !> Nodes, elements, joints, masses, sections, materials, constraints.
   subroutine write_model(file, model)
     type(hdf5_file_t), intent(inout) :: file
     type(model_t), intent(in) :: model
@@ -60,6 +61,8 @@ contains
     call write_freedom(file, model)
     call write_elements(file, model)
     call write_element_names(file, model)
+    call write_joints(file, model)
+    call write_masses(file, model)
     call write_sections(file, model)
     call write_drawings(file, model)
     call write_stress_places(file, model)
@@ -141,7 +144,7 @@ contains
     call file%write("model/elements/nodes", node, about_t("1", "element; Xp Rp Wp Xq Rq Wq", &
                     "rows of /model/nodes, from 0; -1: none"))
     call file%write("model/elements/mode_status", status, about_t("1", "element; mode 1 to 8", &
-                    "0: fixed, 1: flexible, 2: released"))
+                    "0: fixed, 1: flexible, 2: released, 3: prescribed"))
     call file%write("model/elements/options", option, about_t("1", &
                     "element; SECOND MASS SHEAR ROTARY RIGID", "SECOND 0 NONE, 1 JONKER,"// &
                     " 2 CONSISTENT; MASS 0 NONE, 1 LUMPED, 2 CONSISTENT; others 0 off, 1 on"))
@@ -152,18 +155,18 @@ contains
     call write_cards(file, model)
   end subroutine write_elements
 
-  !> What ESTIFF and EM cards gave, if there are any.
+  !> What ESTIFF, EM, EDAMP and ESIG cards gave, if there are any.
   subroutine write_cards(file, model)
     type(hdf5_file_t), intent(inout) :: file
     type(model_t), intent(in) :: model
-    real(wp) :: value(7, size(model%member))
+    real(wp) :: value(8, size(model%member))
     integer :: i
 
     if (any(model%member%has_stiffness)) then
       do i = 1, size(model%member)
-        value(:, i) = model%member(i)%stiffness
+        value(:7, i) = model%member(i)%stiffness
       end do
-      call file%write("model/elements/stiffness", value, about_t("F FL2 FL2 FL2 L2 L2 FL4", &
+      call file%write("model/elements/stiffness", value(:7, :), about_t("F FL2 FL2 FL2 L2 L2 FL4", &
                       "element; EA GIt EIy EIz cy cz EIw", "given by ESTIFF, else 0"))
     end if
     if (any(model%member%has_inertia)) then
@@ -174,6 +177,19 @@ contains
                       "ML-1 ML ML ML ML ML3", "element; rA rIp rIy rIz rIyz rIw (r: density)", &
                       "given by EM, else 0"))
     end if
+    if (any(model%member%has_damping)) then
+      do i = 1, size(model%member)
+        value(:5, i) = model%member(i)%damping
+      end do
+      call file%write("model/elements/damping", value(:5, :), about_t( &
+                      "FT FL2T FL2T FL2T FL4T", "element; EA GIt EIy EIz EIw", &
+                      "per rate of strain, given by EDAMP, else 0"))
+    end if
+    do i = 1, size(model%member)
+      value(:, i) = model%member(i)%initial_stress
+    end do
+    if (any(abs(value) > 0)) call file%write("model/elements/initial_stress", value, &
+      about_t("F", "element; mode 1 to 8", "given by ESIG, else 0"))
   end subroutine write_cards
 
   subroutine write_element_names(file, model)

@@ -53,12 +53,14 @@ module output_reader
 
 contains
 
-  !> Number of columns of a table, 1 of a list.
+  !> Number of columns of a table, 1 of a list; of a list of tables, entries of each if they have
+  !> dimensions of their own.
   pure integer function columns(self)
     class(dataset_t), intent(in) :: self
 
     columns = 1
     if (size(self%extents) > 1) columns = int(self%extents(size(self%extents)))
+    if (size(self%extents) > 2) columns = max(columns, size(self%dimension, 2))
   end function columns
 
   !> Open a file to read. It is not locked: a run may be writing it.

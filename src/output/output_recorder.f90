@@ -1,5 +1,6 @@
 !> The recorder of a run: result file, terminal and interruptions together.
 module output_recorder
+  use kinds, only: wp
   use errors, only: error_t
   use model_data, only: model_t, analysis_t
   use system_results, only: results_t
@@ -37,6 +38,7 @@ module output_recorder
     procedure :: step => record_step
     procedure :: modes => record_modes
     procedure :: critical_point => record_critical
+    procedure :: compliance => record_compliance
     procedure :: finish => record_finish
     procedure :: interrupted => ask_interrupted
   end type run_recorder_t
@@ -123,6 +125,16 @@ contains
     call self%remark(critical_line(point))
     call self%file%critical_point(point, error)
   end subroutine record_critical
+
+  subroutine record_compliance(self, node, matrix, error)
+    class(run_recorder_t), intent(inout) :: self
+    integer, intent(in) :: node(:)
+    real(wp), intent(in) :: matrix(:, :, :)
+    type(error_t), allocatable, intent(out) :: error
+
+    call self%file%compliance(node, matrix, error)
+    if (.not. allocated(error)) call self%log%compliance(node, matrix)
+  end subroutine record_compliance
 
   subroutine record_finish(self, complete, error)
     class(run_recorder_t), intent(inout) :: self

@@ -1,15 +1,20 @@
 !> Datasets that grow by rows while an analysis runs.
+!>
+!> A table keeps what is appended until its block is full, by default one append: many small writes
+!> cost more than a large one. What is appended to a table that was not started is ignored.
 module output_tables
   use, intrinsic :: iso_fortran_env, only: i1 => int8
-  use, intrinsic :: iso_c_binding, only: c_ptr, c_loc
+  use, intrinsic :: iso_c_binding, only: c_ptr, c_loc, c_size_t
   use hdf5, only: hid_t, hsize_t, size_t, h5pcreate_f, h5pclose_f, h5pset_obj_track_times_f, &
                   h5pset_chunk_f, h5pset_chunk_cache_f, h5screate_simple_f, h5sclose_f, &
                   h5dcreate_f, h5dset_extent_f, h5dget_space_f, h5dwrite_f, h5dclose_f, &
                   h5sselect_hyperslab_f, h5p_dataset_create_f, h5p_dataset_access_f, &
                   h5s_select_set_f, h5s_unlimited_f, h5t_native_double, &
                   h5t_native_integer, h5t_ieee_f64le, h5t_ieee_f32le, h5t_std_i32le, &
-                  h5t_std_i64le, h5t_std_u8le, h5t_native_real, h5kind_to_type, h5_integer_kind
+                  h5t_std_i64le, h5t_native_real, h5kind_to_type, h5_integer_kind, &
+                  h5tget_size_f
   use kinds, only: wp, sp, i8
+  use output_interfaces, only: c_memcpy
   use output_hdf5, only: hdf5_file_t, about_t
   implicit none
   private
@@ -24,19 +29,25 @@ module output_tables
 
   type :: table_t
     private
-    integer(hid_t) :: dataset = 0
+    integer(hid_t) :: dataset = 0           !< 0: not started
+    integer(hid_t) :: given = 0             !< type in memory
+    integer :: width = 0                    !< bytes of a row in memory
     integer :: rank = 1
     integer(hsize_t) :: columns = 1
-    integer(hsize_t) :: rows = 0
+    integer(hsize_t) :: rows = 0            !< in the file
+    integer :: block = 1, appends = 0       !< written together, and of them in `buffer`
+    integer :: kept_rows = 0                !< in `buffer`
+    integer(i1), allocatable :: buffer(:)
   contains
+    procedure :: gather
+    procedure :: write => write_kept
     procedure :: start_integers
     procedure :: start_reals
     procedure :: start_singles
     procedure :: start_longs
-    procedure :: start_bytes
-    procedure, private :: append_integer, append_bytes, append_longs, append_real, &
+    procedure, private :: append_integer, append_longs, append_real, &
       append_reals, append_real_table, append_singles, append_single_table
-    generic :: append => append_integer, append_bytes, append_longs, append_real, &
+    generic :: append => append_integer, append_longs, append_real, &
       append_reals, append_real_table, append_singles, append_single_table
     procedure :: finish
   end type table_t
@@ -51,7 +62,7 @@ contains
     integer(i8), intent(in) :: rows
     type(about_t), intent(in) :: about
 
-    call start(self, file, path, h5t_std_i32le, rows, about)
+    call start(self, file, path, h5t_std_i32le, h5t_native_integer, rows, about)
   end subroutine start_integers
 
   !> A list of reals or, with `columns`, a table; about `rows` rows are expected.
@@ -67,7 +78,7 @@ contains
       self%rank = 2
       self%columns = columns
     end if
-    call start(self, file, path, h5t_ieee_f64le, rows, about)
+    call start(self, file, path, h5t_ieee_f64le, h5t_native_double, rows, about)
   end subroutine start_reals
 
   !> The same in single precision.
@@ -83,7 +94,7 @@ contains
       self%rank = 2
       self%columns = columns
     end if
-    call start(self, file, path, h5t_ieee_f32le, rows, about)
+    call start(self, file, path, h5t_ieee_f32le, h5t_native_real, rows, about)
   end subroutine start_singles
 
   !> A list of long whole numbers or, with `columns`, a table.
@@ -99,31 +110,26 @@ contains
       self%rank = 2
       self%columns = columns
     end if
-    call start(self, file, path, h5t_std_i64le, rows, about)
+    call start(self, file, path, h5t_std_i64le, h5kind_to_type(i8, h5_integer_kind), rows, &
+               about)
   end subroutine start_longs
 
-  !> A list of whole numbers from 0 to 255.
-  subroutine start_bytes(self, file, path, rows)
-    class(table_t), intent(out) :: self
-    type(hdf5_file_t), intent(inout) :: file
-    character(len=*), intent(in) :: path
-    integer(i8), intent(in) :: rows
-
-    call start(self, file, path, h5t_std_u8le, rows)
-  end subroutine start_bytes
-
-  subroutine start(self, file, path, type, rows, about)
+  subroutine start(self, file, path, type, given, rows, about)
     type(table_t), intent(inout) :: self
     type(hdf5_file_t), intent(inout) :: file
     character(len=*), intent(in) :: path
-    integer(hid_t), intent(in) :: type
+    integer(hid_t), intent(in) :: type, given   !< in the file and in memory
     integer(i8), intent(in) :: rows
     type(about_t), intent(in), optional :: about
     integer(hsize_t) :: chunk(2), largest(2)
+    integer(size_t) :: bytes
     integer(hid_t) :: list, access, space
     integer :: status
 
     if (allocated(file%failure)) return
+    call h5tget_size_f(given, bytes, status)
+    self%given = given
+    self%width = int(self%columns*bytes)
     chunk = [self%columns, max(1_hsize_t, min(rows, piece/(bytes_of_real*self%columns)))]
     largest = [self%columns, h5s_unlimited_f]
     call h5pcreate_f(h5p_dataset_create_f, list, status)
@@ -142,6 +148,7 @@ contains
     call h5dcreate_f(file%id, path, type, space, self%dataset, status, dcpl_id=list, &
                      dapl_id=access)
     call file%check(status, "h5dcreate_f")
+    if (status < 0) self%dataset = 0
     call h5sclose_f(space, status)
     call h5pclose_f(list, status)
     call h5pclose_f(access, status)
@@ -157,19 +164,8 @@ contains
     integer, target :: buffer
 
     buffer = value
-    call append_rows(self, file, h5t_native_integer, 1, c_loc(buffer))
+    call append_rows(self, file, 1, c_loc(buffer))
   end subroutine append_integer
-
-  !> Rows of a list of bytes.
-  subroutine append_bytes(self, file, values)
-    class(table_t), intent(inout) :: self
-    type(hdf5_file_t), intent(inout) :: file
-    integer(i1), intent(in), contiguous, target :: values(:)
-
-    if (size(values) > 0) then
-      call append_rows(self, file, h5t_std_u8le, size(values), c_loc(values))
-    end if
-  end subroutine append_bytes
 
   !> Rows of a list or, with one column, of a table.
   subroutine append_longs(self, file, values)
@@ -178,8 +174,7 @@ contains
     integer(i8), intent(in), contiguous, target :: values(:)
 
     if (size(values) > 0) then
-      call append_rows(self, file, h5kind_to_type(i8, h5_integer_kind), &
-                       size(values)/int(self%columns), c_loc(values))
+      call append_rows(self, file, size(values)/int(self%columns), c_loc(values))
     end if
   end subroutine append_longs
 
@@ -190,7 +185,7 @@ contains
     real(wp), target :: buffer
 
     buffer = value
-    call append_rows(self, file, h5t_native_double, 1, c_loc(buffer))
+    call append_rows(self, file, 1, c_loc(buffer))
   end subroutine append_real
 
   !> Rows of a list.
@@ -199,9 +194,7 @@ contains
     type(hdf5_file_t), intent(inout) :: file
     real(wp), intent(in), contiguous, target :: values(:)
 
-    if (size(values) > 0) then
-      call append_rows(self, file, h5t_native_double, size(values), c_loc(values))
-    end if
+    if (size(values) > 0) call append_rows(self, file, size(values), c_loc(values))
   end subroutine append_reals
 
   !> Rows of a table.
@@ -210,9 +203,7 @@ contains
     type(hdf5_file_t), intent(inout) :: file
     real(wp), intent(in), contiguous, target :: values(:, :)   !< (columns, rows)
 
-    if (size(values) > 0) then
-      call append_rows(self, file, h5t_native_double, size(values, 2), c_loc(values))
-    end if
+    if (size(values) > 0) call append_rows(self, file, size(values, 2), c_loc(values))
   end subroutine append_real_table
 
   !> Rows of a list.
@@ -221,9 +212,7 @@ contains
     type(hdf5_file_t), intent(inout) :: file
     real(sp), intent(in), contiguous, target :: values(:)
 
-    if (size(values) > 0) then
-      call append_rows(self, file, h5t_native_real, size(values), c_loc(values))
-    end if
+    if (size(values) > 0) call append_rows(self, file, size(values), c_loc(values))
   end subroutine append_singles
 
   !> Rows of a table.
@@ -232,15 +221,67 @@ contains
     type(hdf5_file_t), intent(inout) :: file
     real(sp), intent(in), contiguous, target :: values(:, :)   !< (columns, rows)
 
-    if (size(values) > 0) then
-      call append_rows(self, file, h5t_native_real, size(values, 2), c_loc(values))
-    end if
+    if (size(values) > 0) call append_rows(self, file, size(values, 2), c_loc(values))
   end subroutine append_single_table
 
-  subroutine append_rows(self, file, given, rows, values)
+  !> Write together what `block` appends bring; other tables of the same block stay in step.
+  subroutine gather(self, block)
+    class(table_t), intent(inout) :: self
+    integer, intent(in) :: block
+
+    self%block = block
+  end subroutine gather
+
+  subroutine append_rows(self, file, rows, values)
     type(table_t), intent(inout) :: self
     type(hdf5_file_t), intent(inout) :: file
-    integer(hid_t), intent(in) :: given   !< type in memory
+    integer, intent(in) :: rows
+    type(c_ptr), intent(in) :: values
+
+    if (self%dataset == 0 .or. allocated(file%failure)) return
+    if (self%block == 1) then
+      call write_rows(self, file, rows, values)
+    else
+      call keep_rows(self, rows, values)
+      if (self%appends == self%block) call write_kept(self, file)
+    end if
+  end subroutine append_rows
+
+  !> Put rows behind those in memory; the room is for the rest of the block, if they are all alike.
+  subroutine keep_rows(self, rows, values)
+    type(table_t), intent(inout), target :: self
+    integer, intent(in) :: rows
+    type(c_ptr), intent(in) :: values
+    integer(i1), allocatable :: more(:)
+    integer(i8) :: from, last
+    type(c_ptr) :: ignored
+
+    from = int(self%kept_rows, i8)*self%width
+    last = from + int(rows, i8)*self%width
+    if (.not. allocated(self%buffer)) allocate (self%buffer(0))
+    if (last > size(self%buffer, kind=i8)) then
+      allocate (more(from + (self%block - self%appends)*(last - from)))
+      more(:from) = self%buffer(:from)
+      call move_alloc(more, self%buffer)
+    end if
+    ignored = c_memcpy(c_loc(self%buffer(from + 1)), values, int(last - from, c_size_t))
+    self%appends = self%appends + 1
+    self%kept_rows = self%kept_rows + rows
+  end subroutine keep_rows
+
+  !> Write what is kept, block full or not.
+  subroutine write_kept(self, file)
+    class(table_t), intent(inout), target :: self
+    type(hdf5_file_t), intent(inout) :: file
+
+    if (self%kept_rows > 0) call write_rows(self, file, self%kept_rows, c_loc(self%buffer))
+    self%appends = 0
+    self%kept_rows = 0
+  end subroutine write_kept
+
+  subroutine write_rows(self, file, rows, values)
+    class(table_t), intent(inout) :: self
+    type(hdf5_file_t), intent(inout) :: file
     integer, intent(in) :: rows
     type(c_ptr), intent(in) :: values
     integer(hsize_t) :: first(2), added(2)
@@ -262,21 +303,23 @@ contains
     call file%check(status, "h5sselect_hyperslab_f")
     call h5screate_simple_f(self%rank, added(k:), in_memory, status)
     call file%check(status, "h5screate_simple_f")
-    if (.not. allocated(file%failure)) call h5dwrite_f(self%dataset, given, values, status, &
-                                                       in_memory, in_file)
+    if (.not. allocated(file%failure)) call h5dwrite_f(self%dataset, self%given, values, &
+                                                       status, in_memory, in_file)
     call file%check(status, "h5dwrite_f")
     call h5sclose_f(in_memory, status)
     call h5sclose_f(in_file, status)
-  end subroutine append_rows
+  end subroutine write_rows
 
-  !> Close the dataset.
+  !> Write what is kept and close the dataset.
   subroutine finish(self, file)
     class(table_t), intent(inout) :: self
     type(hdf5_file_t), intent(inout) :: file
     integer :: status
 
-    if (allocated(file%failure)) return
+    if (self%dataset == 0 .or. allocated(file%failure)) return
+    call self%write(file)
     call h5dclose_f(self%dataset, status)
+    self%dataset = 0
     call file%check(status, "h5dclose_f")
   end subroutine finish
 

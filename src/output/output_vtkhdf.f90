@@ -9,11 +9,12 @@ module output_vtkhdf
   use hdf5, only: h5lcreate_hard_f
   use kinds, only: wp, sp, i8
   use rotation, only: no_rotation
-  use model_data, only: model_t, control_arc, analysis_static
+  use model_data, only: model_t, mode_analyses
   use system_results, only: results_t, result_modes
   use mode_results, only: modes_t
   use output_hdf5, only: hdf5_file_t, about_t
   use output_arrays, only: write_longs, write_bytes, set_longs, set_ascii
+  use output_schedule, only: in_time, has_steps, expected_steps, drawn_intervals
   use output_tables, only: table_t
   use beam_mesh, only: mesh_t, new_mesh, line_cell
   use beam_drawing, only: posture_t, draw_motion, draw_mode, draw_forces, draw_stress, mode_forces
@@ -45,14 +46,12 @@ module output_vtkhdf
     type(critical_mode_t), allocatable :: critical(:)   !< of the present analysis
     logical :: stressed = .false.               !< a section has an outline
     integer :: points = 0, cells = 0            !< of the mesh
+    integer :: joints = 0                       !< of the model, drawn or not
     integer :: steps = 0                        !< written
     integer :: pending = 0, most_pending = 1    !< gathered
     integer(i8) :: point_sets = 1               !< written: undeformed, then about which modes are
-    real(wp), allocatable :: turn(:, :)         !< (3, points) rotation vectors of a step
-    real(wp), allocatable :: motion(:, :)       !< gathered, (3, points)
-    real(sp), allocatable :: rotation(:, :), stress(:), force(:, :)  !< gathered
-    integer(i8), allocatable :: entry(:, :)     !< gathered, (steps, longs)
-    integer(i8), allocatable :: origin(:, :)    !< gathered, (2, steps)
+    real(wp), allocatable :: motion(:, :), turn(:, :)   !< (3, points) displacement and rotation
+    real(sp), allocatable :: stress(:), force(:, :)     !< (points), (7, cells)
     type(table_t) :: point_table, values, origin_table, long(longs), &
                      motion_table, rotation_table, stress_table, force_table
   contains
@@ -66,22 +65,24 @@ module output_vtkhdf
 
 contains
 
-  !> Write the mesh and make the tables; a model without elements has nothing to draw.
+  !> Write the mesh and make the tables, if there is something to draw.
   subroutine start(self, file, model)
     class(vtk_writer_t), intent(inout) :: self
     type(hdf5_file_t), intent(inout) :: file
     type(model_t), intent(in) :: model
     integer(i8) :: steps
 
-    self%active = size(model%member) > 0
-    if (.not. self%active) return
     call new_mesh(model, self%mesh)
+    self%active = size(self%mesh%kind) > 0
+    if (.not. self%active) return
+    self%joints = size(model%joint)
     call make_room(self, size(model%node))
-    steps = expected_steps(model)
+    steps = drawn_steps(model)
     call write_head(file)
     call write_mesh(self, file)
     call start_fields(self, file, steps)
     call start_steps(self, file, steps)
+    call gather_steps(self)
   end subroutine start
 
   subroutine make_room(self, nodes)
@@ -96,31 +97,44 @@ contains
     self%points = size(self%mesh%position, 2)
     self%cells = size(self%mesh%kind)
     self%most_pending = max(1, gathered_points/self%points)
-    allocate (self%turn(3, self%points))
-    associate (points => self%points*self%most_pending, cells => self%cells*self%most_pending)
-      allocate (self%motion(3, points), self%rotation(3, points), self%stress(points), &
-                self%force(7, cells))
-    end associate
-    allocate (self%entry(self%most_pending, longs), self%origin(2, self%most_pending))
+    allocate (self%motion(3, self%points), self%turn(3, self%points), self%stress(self%points), &
+              self%force(7, self%cells))
   end subroutine make_room
 
   !> About how many steps there will be.
-  pure integer(i8) function expected_steps(model)
+  pure integer(i8) function drawn_steps(model)
     type(model_t), intent(in) :: model
+    integer(i8) :: steps
     integer :: i
 
-    expected_steps = 0
+    drawn_steps = 0
     do i = 1, size(model%analysis)
       associate (a => model%analysis(i))
-        if (a%kind /= analysis_static) then
-          expected_steps = expected_steps + a%modes
-        else
-          expected_steps = expected_steps + merge(a%most_steps, a%steps, a%control == control_arc)
-        end if
+        steps = 0
+        if (has_steps(a%kind)) steps = expected_steps(a, 0.0_wp)
+        if (in_time(a%kind)) steps = min(steps, int(drawn_intervals, i8))
+        if (any(mode_analyses == a%kind)) steps = a%modes
+        drawn_steps = drawn_steps + steps
       end associate
     end do
-    expected_steps = max(1_i8, expected_steps)
-  end function expected_steps
+    drawn_steps = max(1_i8, drawn_steps)
+  end function drawn_steps
+
+  !> All that grows by the step is written together.
+  subroutine gather_steps(self)
+    type(vtk_writer_t), intent(inout) :: self
+    integer :: i
+
+    call self%motion_table%gather(self%most_pending)
+    call self%rotation_table%gather(self%most_pending)
+    call self%stress_table%gather(self%most_pending)
+    call self%force_table%gather(self%most_pending)
+    call self%values%gather(self%most_pending)
+    call self%origin_table%gather(self%most_pending)
+    do i = 1, longs
+      call self%long(i)%gather(self%most_pending)
+    end do
+  end subroutine gather_steps
 
   !> The group and its attributes: the type is plain ASCII, the version long whole numbers.
   subroutine write_head(file)
@@ -219,24 +233,22 @@ contains
   end subroutine link
 
   !> A recorded state of analysis `number`; `row`: its place there, from 0.
-  subroutine add_state(self, file, number, row, results)
+  subroutine add_state(self, file, number, row, results, drawn)
     class(vtk_writer_t), intent(inout) :: self
     type(hdf5_file_t), intent(inout) :: file
     integer, intent(in) :: number, row
     type(results_t), intent(in) :: results
-    integer :: points
+    logical, intent(in) :: drawn      !< else modes may be about it, no more
 
     if (.not. self%active) return
     self%posture%displacement = results%displacement
     self%posture%euler = results%euler
     self%posture%warping = results%warping
-    points = self%pending*self%points
-    call draw_motion(self%mesh, self%posture, self%motion(:, points + 1:points + self%points), &
-                     self%turn)
+    if (.not. drawn) return
+    call draw_motion(self%mesh, self%posture, self%motion, self%turn)
+    call draw_forces(self%mesh, results%force_p, results%force_q, results%joint_stress, self%force)
     if (self%stressed) call draw_stress(self%mesh, results%force_p, results%force_q, &
-                                        self%stress(points + 1:points + self%points))
-    call draw_forces(self%mesh, results%force_p, results%force_q, &
-                     self%force(:, self%pending*self%cells + 1:))
+                                        results%joint_stress, self%stress)
     call add_step(self, file, number, row, 0_i8)
   end subroutine add_state
 
@@ -297,20 +309,18 @@ contains
     integer, intent(in) :: number, first
     type(modes_t), intent(in) :: modes
     real(wp), dimension(7, size(self%mesh%beam)) :: force_p, force_q
+    real(wp) :: no_stress(1, self%joints)
     integer(i8) :: set
-    integer :: i, points
+    integer :: i
 
-    call write_pending(self, file)
+    no_stress = 0
     call add_points(self, file, set)
     do i = 1, modes%modes
-      points = self%pending*self%points
       call draw_mode(self%mesh, self%posture, modes%displacement(:, :, i), &
-                     modes%rotation(:, :, i), modes%warping(:, i), &
-                     self%motion(:, points + 1:points + self%points), self%turn)
+                     modes%rotation(:, :, i), modes%warping(:, i), self%motion, self%turn)
       call mode_forces(self%mesh, modes%stress(:, :, i), force_p, force_q)
-      if (self%stressed) call draw_stress(self%mesh, force_p, force_q, &
-                                          self%stress(points + 1:points + self%points))
-      call draw_forces(self%mesh, force_p, force_q, self%force(:, self%pending*self%cells + 1:))
+      call draw_forces(self%mesh, force_p, force_q, no_stress, self%force)
+      if (self%stressed) call draw_stress(self%mesh, force_p, force_q, no_stress, self%stress)
       call add_step(self, file, number, first + i - 1, set)
     end do
     call write_pending(self, file)
@@ -323,11 +333,9 @@ contains
     integer(i8), intent(out) :: set
 
     set = 0
-    associate (motion => self%motion(:, :self%points))
-      call draw_motion(self%mesh, self%posture, motion, self%turn)
-      if (.not. any(abs(motion) > 0)) return
-      call self%point_table%append(file, self%mesh%position + motion)
-    end associate
+    call draw_motion(self%mesh, self%posture, self%motion, self%turn)
+    if (.not. any(abs(self%motion) > 0)) return
+    call self%point_table%append(file, self%mesh%position + self%motion)
     set = self%point_sets
     self%point_sets = set + 1
   end subroutine add_points
@@ -338,16 +346,21 @@ contains
     type(hdf5_file_t), intent(inout) :: file
     integer, intent(in) :: number, row
     integer(i8), intent(in) :: set   !< of points
-    integer(i8) :: before
-    integer :: points
+    integer(i8) :: before, entry(longs)
+    integer :: i
 
     before = self%steps + self%pending
-    points = self%pending*self%points
-    self%rotation(:, points + 1:points + self%points) = real(self%turn, sp)
+    entry = [0_i8, 1_i8, set*self%points, 0_i8, before*self%points, before*self%cells]
+    call self%motion_table%append(file, self%motion)
+    call self%rotation_table%append(file, real(self%turn, sp))
+    call self%stress_table%append(file, self%stress)
+    call self%force_table%append(file, self%force)
+    do i = 1, longs
+      call self%long(i)%append(file, entry(i:i))
+    end do
+    call self%origin_table%append(file, [int(number, i8), int(row, i8)])
+    call self%values%append(file, real(before + 1, wp))
     self%pending = self%pending + 1
-    self%origin(:, self%pending) = [number, row]
-    self%entry(self%pending, :) = [0_i8, 1_i8, set*self%points, 0_i8, before*self%points, &
-                                   before*self%cells]
     if (self%pending == self%most_pending) call write_pending(self, file)
   end subroutine add_step
 
@@ -355,21 +368,19 @@ contains
   subroutine write_pending(self, file)
     class(vtk_writer_t), intent(inout) :: self
     type(hdf5_file_t), intent(inout) :: file
-    integer :: i, n, points
+    integer :: i
 
-    n = self%pending
-    if (n == 0) return
-    points = n*self%points
-    call self%motion_table%append(file, self%motion(:, :points))
-    call self%rotation_table%append(file, self%rotation(:, :points))
-    if (self%stressed) call self%stress_table%append(file, self%stress(:points))
-    call self%force_table%append(file, self%force(:, :n*self%cells))
+    if (self%pending == 0) return
+    call self%motion_table%write(file)
+    call self%rotation_table%write(file)
+    call self%stress_table%write(file)
+    call self%force_table%write(file)
     do i = 1, longs
-      call self%long(i)%append(file, self%entry(:n, i))
+      call self%long(i)%write(file)
     end do
-    call self%origin_table%append(file, reshape(self%origin(:, :n), [2*n]))
-    call self%values%append(file, [(real(self%steps + i, wp), i=1, n)])
-    self%steps = self%steps + n
+    call self%origin_table%write(file)
+    call self%values%write(file)
+    self%steps = self%steps + self%pending
     self%pending = 0
     call file%set_number(steps_group, "NSteps", self%steps)
   end subroutine write_pending

@@ -8,17 +8,19 @@ module system_assembly
   use element_base, only: element_t
   use system_data, only: system_t
   use system_pattern, only: add_block
-  use system_loads, only: add_loads
+  use system_loads, only: add_loads, load_direction
+  use system_motion, only: set_targets, target_direction
   implicit none
   private
 
-  public :: iterate_t, new_iterate, assemble, right_hand_side, advance
+  public :: iterate_t, new_iterate, assemble, right_hand_side, pattern_direction, advance
 
   !> Where the iteration stands; what `assemble` leaves is about `state` as it was then.
   type :: iterate_t
     type(state_t) :: state
     real(wp), allocatable :: stress(:)      !< iterated stress resultants and multipliers, by strain
     real(wp), allocatable :: strain(:)      !< by strain, of the last assembly [L]
+    real(wp), allocatable :: target(:)      !< by strain: where a held one is to be
     real(wp), allocatable :: elastic(:)     !< law times strain, zero for fixed strains
     real(wp), allocatable :: jacobian(:)    !< of all elements, one behind the other
     real(wp), allocatable :: internal(:)    !< by coordinate: forces of the strains' stresses
@@ -26,6 +28,12 @@ module system_assembly
     real(wp), allocatable :: external(:)    !< by coordinate: loads
     real(wp), allocatable :: noise(:)       !< by coordinate: round-off to expect in the forces
     real(wp), allocatable :: values(:)      !< entries of the matrix
+    !> Only of a motion in time, else not allocated: velocities by coordinate, given; rates of the
+    !> strains and their viscous stress resultants, found.
+    real(wp), allocatable :: velocity(:), rate(:), viscous(:)
+    real(wp) :: velocity_share = 0.0_wp     !< change of the velocities with the coordinates [1/T]
+    real(wp), allocatable :: inertial(:)    !< by coordinate: inertia forces, of a motion in time
+    logical :: keeps_matrix = .false.       !< the next assembly leaves `values` and `noise` alone
     integer :: invalid = 0                  !< an element rotated beyond its range; 0: none
   end type iterate_t
 
@@ -41,6 +49,7 @@ contains
                    system%angles, iterate%state)
     strains = size(system%multiplier)
     allocate (iterate%stress(strains), iterate%strain(strains), iterate%elastic(strains))
+    allocate (iterate%target(strains))
     allocate (iterate%jacobian(system%jacobian(size(system%jacobian))))
     allocate (iterate%internal(system%coordinates))
     allocate (iterate%constraint(system%coordinates), iterate%external(system%coordinates))
@@ -48,6 +57,7 @@ contains
     iterate%stress = 0
     iterate%strain = 0
     iterate%elastic = 0
+    iterate%target = 0
   end subroutine new_iterate
 
   !> Evaluate all elements and loads at the present state with the patterns at `level`.
@@ -60,8 +70,10 @@ contains
     iterate%internal = 0
     iterate%constraint = 0
     iterate%external = 0
-    iterate%noise = 0
-    iterate%values = 0
+    if (.not. iterate%keeps_matrix) then
+      iterate%noise = 0
+      iterate%values = 0
+    end if
     iterate%invalid = 0
     do e = 1, size(system%element)
       associate (jacobian => iterate%jacobian(system%jacobian(e) + 1:system%jacobian(e + 1)))
@@ -69,6 +81,7 @@ contains
       end associate
       if (iterate%invalid > 0) return
     end do
+    if (size(system%drive) > 0) call set_targets(system, level, iterate%target)
     call add_loads(system, iterate%state, level, iterate%external, iterate%values)
   end subroutine assemble
 
@@ -94,21 +107,18 @@ contains
       return
     end if
     call element%law(law)
-    elastic = matmul(law, strain)
-    stress_rate = matmul(law, jacobian)
-    do j = 1, element%coordinates
-      do i = 1, j
-        tangent(i, j) = tangent(i, j) + dot_product(jacobian(:, i), stress_rate(:, j))
-        tangent(j, i) = tangent(i, j)
-      end do
-    end do
+    elastic = matmul(law, strain) + system%initial_stress(first:last)
+    if (allocated(iterate%velocity)) then
+      call add_damping(element, first, jacobian, iterate, law)
+    end if
     iterate%strain(first:last) = strain
     iterate%elastic(first:last) = elastic
-    call coordinate_sizes(element, iterate%state, size_of)
+    if (element%damped .and. allocated(iterate%velocity)) then
+      elastic = elastic + iterate%viscous(first:last)
+    end if
     associate (at => element%coordinate)
       do j = 1, element%coordinates
         iterate%internal(at(j)) = iterate%internal(at(j)) + dot_product(elastic, jacobian(:, j))
-        iterate%noise(at(j)) = iterate%noise(at(j)) + dot_product(abs(tangent(:, j)), size_of)
       end do
       do i = 1, element%strains
         if (system%multiplier(first + i - 1) == 0) cycle
@@ -116,8 +126,43 @@ contains
                                  + iterate%stress(first + i - 1)*jacobian(i, :)
       end do
     end associate
+    if (iterate%keeps_matrix) return
+    stress_rate = matmul(law, jacobian)
+    do j = 1, element%coordinates
+      do i = 1, j
+        tangent(i, j) = tangent(i, j) + dot_product(jacobian(:, i), stress_rate(:, j))
+        tangent(j, i) = tangent(i, j)
+      end do
+    end do
+    call coordinate_sizes(element, iterate%state, size_of)
+    do j = 1, element%coordinates
+      associate (noise => iterate%noise(element%coordinate(j)))
+        noise = noise + dot_product(abs(tangent(:, j)), size_of)
+      end associate
+    end do
     call add_element(system, e, element, tangent, jacobian, iterate%values)
   end subroutine assemble_element
+
+  !> Rates of the strains and viscous stresses; the law gains what the velocities add to it.
+  pure subroutine add_damping(element, first, jacobian, iterate, law)
+    class(element_t), intent(in) :: element
+    integer, intent(in) :: first
+    real(wp), intent(in) :: jacobian(element%strains, element%coordinates)
+    type(iterate_t), intent(inout) :: iterate
+    real(wp), intent(inout) :: law(element%strains, element%strains)
+    real(wp) :: viscosity(element%strains, element%strains), rate(element%strains)
+    integer :: i
+
+    rate = 0
+    do i = 1, element%coordinates
+      rate = rate + jacobian(:, i)*iterate%velocity(element%coordinate(i))
+    end do
+    iterate%rate(first:first + element%strains - 1) = rate
+    if (.not. element%damped) return
+    call element%damping(viscosity)
+    iterate%viscous(first:first + element%strains - 1) = matmul(viscosity, rate)
+    law = law + iterate%velocity_share*viscosity
+  end subroutine add_damping
 
   !> What round-off in a coordinate is relative to: displacements and the element's size, one
   !> radian, alpha.
@@ -171,8 +216,8 @@ contains
     call add_block(system%pattern, e, bordered, values)
   end subroutine add_element
 
-  !> Right-hand side of the mixed Newton step: loads minus forces of the strains; minus the fixed
-  !> strains. Its solution is the increment and the new multipliers.
+  !> Right-hand side of the mixed Newton step: loads minus forces of the strains; what the held
+  !> strains lack. Its solution is the increment and the new multipliers.
   pure function right_hand_side(system, iterate) result(b)
     type(system_t), intent(in) :: system
     type(iterate_t), intent(in) :: iterate
@@ -182,10 +227,35 @@ contains
     do k = 1, system%coordinates
       if (system%unknown(k) > 0) b(system%unknown(k)) = iterate%external(k) - iterate%internal(k)
     end do
+    if (allocated(iterate%inertial)) then
+      do k = 1, system%coordinates
+        if (system%unknown(k) == 0) cycle
+        b(system%unknown(k)) = b(system%unknown(k)) - iterate%inertial(k)
+      end do
+    end if
     do k = 1, size(system%multiplier)
-      if (system%multiplier(k) > 0) b(system%multiplier(k)) = -iterate%strain(k)
+      if (system%multiplier(k) > 0) b(system%multiplier(k)) = iterate%target(k) - iterate%strain(k)
     end do
   end function right_hand_side
+
+  !> Derivative of the right-hand side to the level of a pattern: loads and motions.
+  pure function pattern_direction(system, state, level, pattern) result(b)
+    type(system_t), intent(in) :: system
+    type(state_t), intent(in) :: state
+    real(wp), intent(in) :: level(:)
+    integer, intent(in) :: pattern
+    real(wp) :: b(system%equations()), force(system%coordinates), rise(size(system%multiplier))
+    integer :: k
+
+    call load_direction(system, state, level, pattern, force)
+    call target_direction(system, level, pattern, rise)
+    do k = 1, system%coordinates
+      if (system%unknown(k) > 0) b(system%unknown(k)) = force(k)
+    end do
+    do k = 1, size(system%multiplier)
+      if (system%multiplier(k) > 0) b(system%multiplier(k)) = rise(k)
+    end do
+  end function pattern_direction
 
   !> Take a step: move the state by `share` of the solution, extrapolate the stresses.
   pure subroutine advance(system, solution, share, iterate, increment)
@@ -206,6 +276,9 @@ contains
       end associate
     end do
     call iterate%state%move(increment)
+    do e = 1, size(system%element)
+      if (system%element(e)%e%counts_turns) call system%element(e)%e%count_turns(iterate%state)
+    end do
   end subroutine advance
 
   !> sigma <- S (strain + D du), with strain and D before the step; multipliers from the solution.
@@ -227,7 +300,7 @@ contains
     do i = 1, element%coordinates
       strain = strain + jacobian(:, i)*increment(element%coordinate(i))
     end do
-    stress = matmul(law, strain)
+    stress = matmul(law, strain) + system%initial_stress(first:last)
     do i = 1, element%strains
       associate (old => iterate%stress(first + i - 1), at => system%multiplier(first + i - 1))
         if (at > 0) stress(i) = old + share*(solution(at) - old)

@@ -1,15 +1,12 @@
 !> From the model to the system: elements, unknowns, loads, sparsity.
 module system_build
   use kinds, only: wp
-  use model_data, only: model_t, member_t, load_t, mode_fixed, mode_flexible, mode_released, &
-                        mass_none, mass_consistent, components
+  use model_data, only: model_t, components, mode_flexible
   use nodal_state, only: coordinate_number, node_coordinates
-  use element_base, only: element_slot_t
-  use element_beamw, only: new_element_beamw, modes
-  use element_rotation, only: new_element_rotation
-  use beamw_constants, only: beamw_t
-  use system_constants, only: constants_table_t
-  use system_data, only: system_t, dead_load_t
+  use system_data, only: system_t
+  use system_elements, only: make_elements
+  use system_forces, only: make_loads
+  use system_motion, only: make_motions
   use system_pattern, only: find_pattern
   implicit none
   private
@@ -27,18 +24,59 @@ contains
     system%nodes = size(model%node)
     system%members = size(model%member)
     system%length = model_size(model)
-    allocate (twists(system%nodes))
+    system%joints = size(model%joint)
+    allocate (twists(system%nodes), system%timed(size(model%pattern)))
+    system%timed = .false.
     call make_elements(model, system, twists)
     call number_strains(system)
-    call number_coordinates(model, twists, system)
-    call number_multipliers(system)
     if (allocated(model%function)) then
       system%function = model%function
     else
       allocate (system%function(0))
     end if
+    call set_initial_stress(model, system)
+    call make_motions(model, system)
+    call number_coordinates(model, twists, system)
+    call number_multipliers(system)
     call make_loads(model, system)
+    system%mass_node = mass_nodes(model)
   end subroutine build_system
+
+  !> Stress resultants of ESIG, of strains that have a law.
+  pure subroutine set_initial_stress(model, system)
+    type(model_t), intent(in) :: model
+    type(system_t), intent(inout) :: system
+    integer :: i, e, n
+
+    allocate (system%initial_stress(size(system%multiplier)))
+    system%initial_stress = 0
+    do i = 1, system%members
+      system%initial_stress(system%first(i) + 1:system%first(i) + 8) = &
+        merge(model%member(i)%initial_stress, 0.0_wp, &
+              model%member(i)%status == mode_flexible .and. .not. model%member(i)%rigid)
+    end do
+    do i = 1, system%joints
+      e = system%members + i
+      n = system%element(e)%e%strains
+      system%initial_stress(system%first(e) + 1:system%first(e) + n) = &
+        merge(model%joint(i)%initial_stress(:n), 0.0_wp, model%joint(i)%status(:n) == mode_flexible)
+    end do
+  end subroutine set_initial_stress
+
+  !> Nodes with XM cards, each once.
+  pure function mass_nodes(model) result(node)
+    type(model_t), intent(in) :: model
+    integer, allocatable :: node(:)
+    logical, allocatable :: heavy(:)
+    integer :: i
+
+    node = [integer ::]
+    if (size(model%mass) == 0) return
+    allocate (heavy(size(model%node)))
+    heavy = .false.
+    heavy(model%mass%node) = .true.
+    node = pack([(i, i=1, size(heavy))], heavy)
+  end function mass_nodes
 
   !> Largest extent of the nodes' positions [L].
   pure function model_size(model) result(length)
@@ -53,88 +91,8 @@ contains
     do i = 1, size(model%member)
       length = max(length, maxval(abs(model%member(i)%chord)))
     end do
+    if (.not. length > 0) length = 1  ! rotational nodes only
   end function model_size
-
-  !> Elements of all members, then those that hold single components of a rotation. `twists(i)`:
-  !> the warping coordinate of node i has a bimoment.
-  subroutine make_elements(model, system, twists)
-    type(model_t), intent(in) :: model
-    type(system_t), intent(inout) :: system
-    logical, intent(out) :: twists(:)
-    type(constants_table_t) :: table
-    type(beamw_t), pointer :: constants
-    logical :: held(3)
-    integer :: i, n, release(modes), releases
-
-    allocate (system%element(system%members + count_held_rotations(model)))
-    twists = .false.
-    releases = 0
-    do i = 1, system%members
-      associate (m => model%member(i))
-        call table%get(model, m, constants)
-        call number_releases(m, releases, release)
-        if (constants%warping .and. m%status(2) /= mode_fixed) twists(m%node(3, :)) = .true.
-        call new_element_beamw(m%node, system%nodes, m%chord, m%triad, &
-                               m%status == mode_fixed .or. m%rigid, release, constants, &
-                               system%element(i)%e)
-      end associate
-    end do
-    do i = 1, system%members
-      associate (m => model%member(i))
-        if (any(m%status(7:8) == mode_fixed) .or. m%rigid) call hold_warping(m, twists)
-      end associate
-    end do
-    n = system%members
-    do i = 1, system%nodes
-      held = model%node(i)%fixed(4:6)
-      if (all(held) .or. .not. any(held)) cycle
-      n = n + 1
-      call new_element_rotation(i, held, system%element(n)%e)
-    end do
-    if (allocated(table%constants)) call move_alloc(table%constants, system%constants)
-    system%constants_used = table%entries
-    system%coordinates = node_coordinates*system%nodes + releases
-  end subroutine make_elements
-
-  !> Modes 7 and 8 of a rigid torsion hold alpha.
-  pure subroutine hold_warping(member, twists)
-    type(member_t), intent(in) :: member
-    logical, intent(inout) :: twists(:)
-    integer :: e
-
-    do e = 1, 2
-      if (member%status(6 + e) == mode_fixed .or. member%rigid) twists(member%node(3, e)) = .false.
-    end do
-  end subroutine hold_warping
-
-  !> A released mode of a beam with stiffness has a coordinate of its own; one of a beam without
-  !> is just not constrained.
-  pure subroutine number_releases(member, releases, release)
-    type(member_t), intent(in) :: member
-    integer, intent(inout) :: releases
-    integer, intent(out) :: release(modes)
-    integer :: i
-
-    release = 0
-    if (member%rigid .or. .not. any(member%status == mode_flexible)) return
-    do i = 1, modes
-      if (member%status(i) /= mode_released) cycle
-      releases = releases + 1
-      release(i) = releases
-    end do
-  end subroutine number_releases
-
-  pure integer function count_held_rotations(model) result(n)
-    type(model_t), intent(in) :: model
-    integer :: i
-
-    n = 0
-    do i = 1, size(model%node)
-      associate (held => model%node(i)%fixed(4:6))
-        if (any(held) .and. .not. all(held)) n = n + 1
-      end associate
-    end do
-  end function count_held_rotations
 
   pure subroutine number_strains(system)
     type(system_t), intent(inout) :: system
@@ -173,15 +131,17 @@ contains
     end do
     do k = 1, system%coordinates
       if (.not. system%used(k)) cycle
-      if (is_held(model, k)) cycle
+      if (is_held(model, system, k)) cycle
       system%unknowns = system%unknowns + 1
       system%unknown(k) = system%unknowns
     end do
   end subroutine number_coordinates
 
-  !> Fixed directly; a rotation only if all its components are.
-  pure logical function is_held(model, coordinate)
+  !> Fixed directly; of a rotation two components at least, and no motion: the third is then a turn
+  !> about an axis that does not move, and the two hold without a constraint.
+  pure logical function is_held(model, system, coordinate)
     type(model_t), intent(in) :: model
+    type(system_t), intent(in) :: system
     integer, intent(in) :: coordinate
     integer :: node, component
 
@@ -189,10 +149,9 @@ contains
     if (coordinate > node_coordinates*size(model%node)) return
     node = (coordinate - 1)/node_coordinates + 1
     component = coordinate - node_coordinates*(node - 1)
+    is_held = model%node(node)%fixed(component)
     if (component >= 4 .and. component <= 6) then
-      is_held = all(model%node(node)%fixed(4:6))
-    else
-      is_held = model%node(node)%fixed(component)
+      is_held = is_held .and. all(system%holder(4:6, node) == 0)
     end if
   end function is_held
 
@@ -212,147 +171,21 @@ contains
     end do
   end subroutine number_multipliers
 
-  !> Loads of all patterns; gravity becomes one load at each end of each member with mass.
-  subroutine make_loads(model, system)
-    type(model_t), intent(in) :: model
+  !> Sparsity with a block for each element, coordinates then multipliers, for each node with mass
+  !> of its own, translation and rotation, and for each load, the
+  !> rotation and alpha of its node and the releases it leans by, or the translation of a follower.
+  !> Followers, and dead moments where more than one axis is free, make the tangent unsymmetric
+  !> (theory 6).
+  pure subroutine find_system_pattern(system, unsymmetric)
     type(system_t), intent(inout) :: system
-    integer :: p, i, n
-
-    n = 0
-    do p = 1, size(model%pattern)
-      n = n + model%pattern(p)%loads
-      if (has_gravity(model, p)) n = n + 2*count(line_mass_given(model, [(i, i=1, system%members)]))
-    end do
-    allocate (system%load(n))
-    n = 0
-    do p = 1, size(model%pattern)
-      do i = 1, model%pattern(p)%loads
-        n = n + 1
-        system%load(n) = point_load(model, model%pattern(p)%load(i), p)
-      end do
-      if (.not. has_gravity(model, p)) cycle
-      do i = 1, system%members
-        if (.not. line_mass_given(model, i)) cycle
-        system%load(n + 1:n + 2) = weight_loads(model, model%member(i), p)
-        call lean_with_releases(model%member(i), system%element(i)%e%coordinate, &
-                                system%load(n + 1:n + 2))
-        n = n + 2
-      end do
-    end do
-  end subroutine make_loads
-
-  pure logical function has_gravity(model, p)
-    type(model_t), intent(in) :: model
-    integer, intent(in) :: p
-
-    has_gravity = any(abs(model%pattern(p)%gravity) > 0)
-  end function has_gravity
-
-  !> Whether a member has mass.
-  elemental logical function line_mass_given(model, i)
-    type(model_t), intent(in) :: model
-    integer, intent(in) :: i
-
-    line_mass_given = model%member(i)%mass /= mass_none .and. line_mass(model, model%member(i)) > 0
-  end function line_mass_given
-
-  !> Mass per length [M L^-1].
-  pure function line_mass(model, member)
-    type(model_t), intent(in) :: model
-    type(member_t), intent(in) :: member
-    real(wp) :: line_mass
-
-    line_mass = 0
-    if (member%has_inertia) then
-      line_mass = member%inertia(1)
-    else if (member%section > 0 .and. member%material > 0) then
-      line_mass = model%section(member%section)%constants%a*model%material(member%material)%rho
-    end if
-  end function line_mass
-
-  !> Dead weight: half at each end; with the consistent mass at the arms l0/6 d that stand for
-  !> the end moments of the Hermite interpolation, d = eX + alpha s (theory 6, 7).
-  pure function weight_loads(model, member, pattern) result(load)
-    type(model_t), intent(in) :: model
-    type(member_t), intent(in) :: member
-    integer, intent(in) :: pattern
-    type(dead_load_t) :: load(2)
-    real(wp) :: length, s(3)
-    integer :: e
-
-    length = norm2(member%chord)
-    s = 0
-    if (member%section > 0 .and. .not. member%has_stiffness) then
-      associate (c => model%section(member%section)%constants)
-        s = c%zs*member%triad(:, 2) - c%ys*member%triad(:, 3)
-      end associate
-    end if
-    do e = 1, 2
-      load(e)%pattern = pattern
-      load(e)%node = member%node(:, e)
-      load(e)%force = 0.5_wp*length*line_mass(model, member)*model%pattern(pattern)%gravity
-      if (member%mass /= mass_consistent) cycle
-      load(e)%arm = (3 - 2*e)*length/6*member%triad(:, 1)
-      load(e)%warp = (3 - 2*e)*length/6*s
-    end do
-  end function weight_loads
-
-  !> At an end with released bending the beam's own direction is not that of the node: the arm leans
-  !> by the released angles, ay = rel5/l0, az = -rel3/l0 at p and opposite at q.
-  pure subroutine lean_with_releases(member, coordinate, load)
-    type(member_t), intent(in) :: member
-    integer, intent(in) :: coordinate(:)  !< its element: 14 of the nodes, then the releases
-    type(dead_load_t), intent(inout) :: load(2)
-    integer :: e, i, mode
-
-    if (member%mass /= mass_consistent .or. size(coordinate) == 14) return
-    do e = 1, 2
-      do i = 1, 2
-        mode = 6 + e - 2*i  ! towards y: 5, 6; towards z: 3, 4
-        if (member%status(mode) /= mode_released) cycle
-        load(e)%lean(i) = coordinate(14 + count(member%status(:mode) == mode_released))
-        load(e)%lean_rate(i) = (3 - 2*e)*(3 - 2*i)/norm2(member%chord)
-      end do
-      load(e)%axes = (3 - 2*e)*norm2(member%chord)/6*member%triad(:, 2:3)
-    end do
-  end subroutine lean_with_releases
-
-  !> A load of a card.
-  pure function point_load(model, card, pattern) result(load)
-    type(model_t), intent(in) :: model
-    type(load_t), intent(in) :: card
-    integer, intent(in) :: pattern
-    type(dead_load_t) :: load
-
-    load%pattern = pattern
-    load%function = card%function
-    load%node = card%node
-    load%force = card%force
-    load%moment = card%moment
-    load%bimoment = card%bimoment
-    if (card%marker == 0) return
-    associate (point => model%point(card%marker))
-      if (point%member == 0) return
-      associate (m => model%member(point%member))
-        load%node = m%node(:, merge(1, 2, m%node(1, 1) == card%node))
-        load%arm = point%offset(1)*m%triad(:, 2) + point%offset(2)*m%triad(:, 3)
-        if (point%omega_known) load%warp = -point%omega*m%triad(:, 1)
-      end associate
-    end associate
-  end function point_load
-
-  !> Sparsity with a block for each element, coordinates then multipliers, and for each load, the
-  !> rotation and alpha of its node and the releases it leans by. Dead moments make the tangent
-  !> unsymmetric (theory 6).
-  pure subroutine find_system_pattern(system)
-    type(system_t), intent(inout) :: system
+    logical, intent(in), optional :: unsymmetric  !< ask for all entries anyway
     integer, allocatable :: start(:), member(:)
     integer :: e, i, n, blocks
     logical :: symmetric
 
-    blocks = size(system%element) + size(system%load)
+    blocks = size(system%element) + size(system%load) + size(system%mass_node)
     allocate (start(blocks + 1), member(sum([(width(system, e), e=1, size(system%element))]) &
-                                        + 6*size(system%load)))
+                                        + 7*size(system%load) + 6*size(system%mass_node)))
     n = 0
     do e = 1, size(system%element)
       start(e) = n + 1
@@ -372,15 +205,26 @@ contains
       associate (load => system%load(i))
         member(n + 1:n + 4) = &
           system%unknown(coordinate_number(load%node([2, 2, 2, 3]), [4, 5, 6, 7]))
-        if (any(abs(load%moment) > 0) .and. any(member(n + 1:n + 3) > 0)) symmetric = .false.
+        if (any(abs(load%moment) > 0) .and. count(member(n + 1:n + 3) > 0) > 1) symmetric = .false.
         n = n + 4
+        if (load%follower) then
+          symmetric = .false.
+          member(n + 1:n + 3) = system%unknown(coordinate_number(load%node(1), [1, 2, 3]))
+          n = n + 3
+        end if
         if (all(load%lean == 0)) cycle
         member(n + 1:n + 2) = 0
         where (load%lean > 0) member(n + 1:n + 2) = system%unknown(max(1, load%lean))
         n = n + 2
       end associate
     end do
+    do i = 1, size(system%mass_node)
+      start(size(system%element) + size(system%load) + i) = n + 1
+      member(n + 1:n + 6) = system%unknown(coordinate_number(system%mass_node(i), [(e, e=1, 6)]))
+      n = n + 6
+    end do
     start(blocks + 1) = n + 1
+    if (present(unsymmetric)) symmetric = symmetric .and. .not. unsymmetric
     call find_pattern(system%equations(), start, member(:n), symmetric, system%pattern)
   end subroutine find_system_pattern
 

@@ -1,14 +1,15 @@
 !> Element constants shared by all elements that are alike: found by hashing what they depend on.
 module system_constants
   use kinds, only: wp, i8
-  use model_data, only: model_t, member_t, mode_flexible, second_none, second_jonker
+  use model_data, only: model_t, member_t, mode_flexible, second_none, second_jonker, &
+                        type_beam
   use beamw_rigidity, only: rigidity_t, section_rigidity, spacar_rigidity
   use beamw_constants, only: beamw_t, new_beamw, beamw_none, beamw_jonker, beamw_consistent
   use system_data, only: constants_slot_t
   implicit none
   private
 
-  public :: constants_table_t, member_rigidity
+  public :: constants_table_t, member_rigidity, member_damping
 
   integer, parameter :: key_length = 13
 
@@ -60,7 +61,7 @@ contains
     key(4) = member%second
     key(5) = merge(1, 0, member%shear) + merge(2, 0, is_flexible(member)) &
              + merge(4, 0, member%has_stiffness)
-    key(6) = 0
+    key(6) = member%kind
     key(7:) = merge(member%stiffness, 0.0_wp, member%has_stiffness)
   end function member_key
 
@@ -104,7 +105,35 @@ contains
                                     material%g, member%shear)
       end associate
     end if
+    if (member%kind /= type_beam) return
+    rigidity%eiw = 0
+    rigidity%bw = 0
+    rigidity%shear_rigid(3) = .true.
+    rigidity%gd(3, :) = 0
+    rigidity%gd(:, 3) = 0
   end function member_rigidity
+
+  !> Viscous stresses of a flexible member per rate of strain, not allocated if it has none: its
+  !> stiffness times the damping of material and Rayleigh, and that of rigidities by EDAMP.
+  pure subroutine member_damping(model, member, constants, viscosity)
+    type(model_t), intent(in) :: model
+    type(member_t), intent(in) :: member
+    type(beamw_t), intent(in) :: constants
+    real(wp), allocatable, intent(out) :: viscosity(:, :)
+    type(beamw_t) :: dashpots
+    real(wp) :: beta
+
+    if (.not. is_flexible(member)) return
+    beta = model%rayleigh(2)
+    if (member%material > 0) beta = beta + model%material(member%material)%damping
+    if (.not. beta > 0 .and. .not. member%has_damping) return
+    viscosity = beta*constants%s
+    if (.not. member%has_damping) return
+    dashpots = new_beamw(spacar_rigidity([member%damping(1:4), 0.0_wp, 0.0_wp, &
+                                          member%damping(5)], .false.), norm2(member%chord), &
+                         beamw_none)
+    viscosity = viscosity + dashpots%s
+  end subroutine member_damping
 
   pure integer function size_of(slot)
     integer, allocatable, intent(in) :: slot(:)

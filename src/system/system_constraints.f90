@@ -2,7 +2,7 @@
 module system_constraints
   use kinds, only: wp
   use errors, only: error_t
-  use nodal_state, only: state_t, new_state, node_coordinates
+  use nodal_state, only: state_t, node_coordinates
   use element_base, only: element_t
   use linalg_dense, only: rank_revealing
   use linalg_solver, only: solver_t
@@ -34,10 +34,11 @@ contains
     if (component == 7 .and. coordinate <= node_coordinates*system%nodes) scale = 1/system%length
   end function coordinate_scale
 
-  !> Take out the fixed strains that follow from others in the undeformed state; `dropped` lists
-  !> them. With few constraints the later ones of the deck go.
-  subroutine drop_redundant(system, dropped, error)
+  !> Take out the fixed strains that follow from others in a state, that of the start; `dropped`
+  !> lists them. With few constraints the later ones of the deck go.
+  subroutine drop_redundant(system, state, dropped, error)
     type(system_t), intent(inout) :: system
+    type(state_t), intent(in) :: state
     integer, allocatable, intent(out) :: dropped(:)
     type(error_t), allocatable, intent(out) :: error
     integer, allocatable :: row(:), column(:), strain(:), dependent(:)
@@ -46,7 +47,7 @@ contains
 
     dropped = [integer ::]
     if (system%multipliers == 0) return
-    call constraint_entries(system, row, column, values)
+    call constraint_entries(system, state, row, column, values)
     if (system%multipliers <= dense_rows) then
       call dense_dependent(system, row, column, values, dependent)
     else
@@ -61,15 +62,13 @@ contains
   end subroutine drop_redundant
 
   !> The Jacobian of the fixed strains in scaled coordinates: rows are multipliers, from 1.
-  subroutine constraint_entries(system, row, column, values)
+  subroutine constraint_entries(system, state, row, column, values)
     type(system_t), intent(in) :: system
+    type(state_t), intent(in) :: state
     integer, allocatable, intent(out) :: row(:), column(:)
     real(wp), allocatable, intent(out) :: values(:)
-    type(state_t) :: state
     integer :: e, n
 
-    call new_state(system%nodes, system%coordinates - node_coordinates*system%nodes, &
-                   system%angles, state)
     n = 0
     do e = 1, size(system%element)
       n = n + count(system%element(e)%e%fixed)*system%element(e)%e%coordinates

@@ -11,7 +11,7 @@ module system_data
   implicit none
   private
 
-  public :: system_t, dead_load_t, constants_slot_t, pattern_t, unknown_name_t
+  public :: system_t, dead_load_t, constants_slot_t, pattern_t, unknown_name_t, drive_t, turn_t
 
   !> A pointer that can live in an array.
   type :: constants_slot_t
@@ -29,11 +29,27 @@ module system_data
     real(wp) :: bimoment = 0.0_wp       !< [F L^2]
     real(wp) :: arm(3) = 0.0_wp         !< initially, global axes [L]
     real(wp) :: warp(3) = 0.0_wp        !< -omega eX of the section [L^2]
+    logical :: follower = .false.       !< force and moment turn with the rotational node
     !> Coordinates of released bending strains by which the arm turns towards `axes`; 0: none.
     integer :: lean(2) = 0
     real(wp) :: lean_rate(2) = 0.0_wp   !< angle per released strain [1/L]
     real(wp) :: axes(3, 2) = 0.0_wp     !< initially, as long as the arm and across it [L]
   end type dead_load_t
+
+  !> A motion of a held strain: value times load factor or function, and what time adds.
+  type :: drive_t
+    integer :: strain = 0
+    integer :: pattern = 0
+    integer :: function = 0             !< index in `system%function`; 0: the load factor
+    real(wp) :: value = 0.0_wp, velocity = 0.0_wp, acceleration = 0.0_wp
+  end type drive_t
+
+  !> Strains that are Euler parameters of a node, and driven by an angle or rotation vector unless
+  !> `euler`.
+  type :: turn_t
+    integer :: first = 0, strains = 0
+    logical :: euler = .false.
+  end type turn_t
 
   !> Sparsity in coordinate form and, for each block (element or load), where its entries go.
   type :: pattern_t
@@ -69,8 +85,15 @@ module system_data
     integer, allocatable :: jacobian(:)   !< by element: entries of Jacobians before its own
     integer, allocatable :: multiplier(:) !< by strain: number of its unknown; 0: none
     logical, allocatable :: dropped(:)    !< by strain: fixed, but follows from other constraints
+    real(wp), allocatable :: initial_stress(:)  !< by strain: at zero strain, of a law
     type(dead_load_t), allocatable :: load(:)
+    integer, allocatable :: mass_node(:)  !< nodes with mass or inertia of their own
     type(function_t), allocatable :: function(:)
+    type(drive_t), allocatable :: drive(:)
+    type(turn_t), allocatable :: turn(:)
+    integer, allocatable :: holder(:, :)  !< (7, nodes) element whose strain it is; 0: none
+    !> By pattern: its level is the time; cards without a function act in full.
+    logical, allocatable :: timed(:)
     type(constants_slot_t), allocatable :: constants(:)
     integer :: constants_used = 0
     type(pattern_t) :: pattern

@@ -113,32 +113,32 @@ contains
     do i = 1, size(system%load)
       associate (load => system%load(i))
         at = coordinate_number(load%node(2), [4, 5, 6])
-        if (.not. any(abs(load%moment) > 0) .or. all(system%unknown(at) == 0)) cycle
-        if (.not. harmless(system, iterate, at(1), load%moment)) conservative = .false.
+        if (load%follower) conservative = .false.
+        if (.not. any(abs(load%moment) > 0) .or. count(system%unknown(at) > 0) <= 1) cycle
+        if (.not. harmless(system, iterate, load%node(2), load%moment)) conservative = .false.
       end associate
     end do
   end function is_conservative
 
   !> Whether a moment is conservative for the rotations of a node.
-  pure logical function harmless(system, iterate, coordinate, moment)
+  pure logical function harmless(system, iterate, node, moment)
     type(system_t), intent(in) :: system
     type(iterate_t), intent(in) :: iterate
-    integer, intent(in) :: coordinate      !< the first of the three
+    integer, intent(in) :: node
     real(wp), intent(in) :: moment(3)
     real(wp) :: held(3)
     integer :: e, k
 
     harmless = .false.
-    do e = system%members + 1, size(system%element)
-      associate (element => system%element(e)%e)
-        if (element%coordinate(1) /= coordinate .or. element%coordinates /= 3) cycle
-        do k = 1, 3
-          held(k) = iterate%jacobian(system%jacobian(e) + (k - 1)*element%strains + 1)
-        end do
-        harmless = element%strains >= 2 .or. &
-                   abs(dot_product(held, moment)) <= parallel*norm2(held)*norm2(moment)
-      end associate
-    end do
+    e = maxval(system%holder(4:6, node))
+    if (e == 0) return
+    associate (element => system%element(e)%e)
+      do k = 1, 3
+        held(k) = iterate%jacobian(system%jacobian(e) + (k - 1)*element%strains + 1)
+      end do
+      harmless = element%strains >= 2 .or. &
+                 abs(dot_product(held, moment)) <= parallel*norm2(held)*norm2(moment)
+    end associate
   end function harmless
 
 end module system_geometric

@@ -1,23 +1,34 @@
-!> The mass of a system: inertia of its members, and the matrix of it in the system's sparsity
-!> (theory 7).
+!> The mass of a system: of its beams, trusses and nodes, and the matrix of it in the system's
+!> sparsity (theory 7).
 module system_inertia
   use kinds, only: wp
-  use model_data, only: model_t, member_t, mass_none, mass_consistent
+  use model_data, only: model_t, member_t, joint_t, mass_none, mass_consistent, joint_truss, &
+                        type_beam
   use nodal_state, only: state_t, coordinate_number
   use rotation, only: cross, identity3
   use beamw_inertia, only: inertia_t, new_inertia, inertia_mass
+  use node_inertia, only: node_inertia_t, node_inertia_forces
+  use truss_inertia, only: truss_mass
   use system_data, only: system_t
   use system_pattern, only: add_block
   implicit none
   private
 
   public :: masses_t, new_masses, assemble_mass, mass_product, rigid_motion, mass_centre
+  public :: body_coordinates, truss_density
 
-  !> Inertia of the members that have any.
+  integer, parameter, public :: body_size = 14  !< most coordinates of a body
+
+  !> What has mass: beams, then trusses, then nodes.
   type :: masses_t
-    integer, allocatable :: member(:)          !< their numbers
-    type(inertia_t), allocatable :: inertia(:)
-    integer, allocatable :: node(:, :, :)      !< (kind, end, entry)
+    integer :: bodies = 0, beams = 0, trusses = 0
+    integer, allocatable :: block(:)           !< by body: its block of the system's pattern
+    integer, allocatable :: coordinates(:)     !< by body: 14 or 6
+    integer, allocatable :: coordinate(:, :)   !< (14, bodies)
+    integer, allocatable :: node(:, :, :)      !< (kind, end, bodies); of a node: at end 1
+    type(inertia_t), allocatable :: beam(:)
+    real(wp), allocatable :: truss(:, :, :)    !< (6, 6, trusses)
+    type(node_inertia_t), allocatable :: point(:)
     real(wp), allocatable :: position(:, :)    !< (3, nodes) initial
     real(wp) :: total = 0.0_wp                 !< [M]
   end type masses_t
@@ -25,26 +36,98 @@ module system_inertia
 contains
 
   !> Gather what has mass.
-  pure subroutine new_masses(model, masses)
+  pure subroutine new_masses(model, system, masses)
     type(model_t), intent(in) :: model
+    type(system_t), intent(in) :: system
     type(masses_t), intent(out) :: masses
-    integer :: i, k
+    integer, allocatable :: member(:), joint(:)
+    integer :: i, n
 
-    masses%member = pack([(i, i=1, size(model%member))], [(has_mass(model, i), i=1, &
-                                                           size(model%member))])
-    allocate (masses%inertia(size(masses%member)), masses%node(3, 2, size(masses%member)))
-    allocate (masses%position(3, size(model%node)))
+    allocate (member, source=pack([(i, i=1, size(model%member))], &
+                                  [(has_mass(model, i), i=1, size(model%member))]))
+    allocate (joint, source=pack([(i, i=1, size(model%joint))], &
+                                 truss_density(model, model%joint) > 0))
+    masses%beams = size(member)
+    masses%trusses = size(joint)
+    n = size(member) + size(joint) + size(system%mass_node)
+    masses%bodies = n
+    allocate (masses%block(n), masses%coordinates(n), masses%coordinate(body_size, n))
+    allocate (masses%node(3, 2, n), masses%beam(size(member)), masses%truss(6, 6, size(joint)))
+    allocate (masses%point(size(system%mass_node)), masses%position(3, size(model%node)))
+    masses%node = 0
+    masses%coordinate = 0
     do i = 1, size(model%node)
       masses%position(:, i) = model%node(i)%position
     end do
-    do k = 1, size(masses%member)
-      associate (m => model%member(masses%member(k)))
-        masses%inertia(k) = member_inertia(model, m)
+    call add_beams(model, member, masses)
+    call add_trusses(model, system, joint, masses)
+    call add_points(model, system, masses)
+  end subroutine new_masses
+
+  pure subroutine add_beams(model, member, masses)
+    type(model_t), intent(in) :: model
+    integer, intent(in) :: member(:)
+    type(masses_t), intent(inout) :: masses
+    integer :: k
+
+    do k = 1, size(member)
+      associate (m => model%member(member(k)))
+        masses%beam(k) = member_inertia(model, m)
+        masses%block(k) = member(k)
         masses%node(:, :, k) = m%node
-        masses%total = masses%total + sum(masses%inertia(k)%line([1, 3], [1, 3]))
+        masses%total = masses%total + sum(masses%beam(k)%line([1, 3], [1, 3]))
+        masses%coordinates(k) = 14
+        masses%coordinate(:, k) = &
+          coordinate_number(reshape(m%node([1, 1, 1, 2, 2, 2, 3], :), [14]), &
+                            [1, 2, 3, 4, 5, 6, 7, 1, 2, 3, 4, 5, 6, 7])
       end associate
     end do
-  end subroutine new_masses
+  end subroutine add_beams
+
+  pure subroutine add_trusses(model, system, joint, masses)
+    type(model_t), intent(in) :: model
+    type(system_t), intent(in) :: system
+    integer, intent(in) :: joint(:)
+    type(masses_t), intent(inout) :: masses
+    integer :: k, b
+    real(wp) :: density
+
+    do k = 1, size(joint)
+      b = masses%beams + k
+      associate (truss => model%joint(joint(k)))
+        density = truss_density(model, truss)
+        masses%truss(:, :, k) = truss_mass(density, norm2(truss%chord), &
+                                           truss%mass == mass_consistent)
+        masses%node(1, :, b) = truss%node(1, :)
+        masses%total = masses%total + density*norm2(truss%chord)
+      end associate
+      masses%block(b) = system%members + joint(k)
+      masses%coordinates(b) = 6
+      masses%coordinate(:6, b) = system%element(system%members + joint(k))%e%coordinate
+    end do
+  end subroutine add_trusses
+
+  !> All XM cards of a node together.
+  pure subroutine add_points(model, system, masses)
+    type(model_t), intent(in) :: model
+    type(system_t), intent(in) :: system
+    type(masses_t), intent(inout) :: masses
+    integer :: k, b, i, j
+
+    do k = 1, size(system%mass_node)
+      b = masses%beams + masses%trusses + k
+      do i = 1, size(model%mass)
+        if (model%mass(i)%node /= system%mass_node(k)) cycle
+        masses%point(k)%mass = masses%point(k)%mass + model%mass(i)%mass
+        masses%point(k)%tensor = masses%point(k)%tensor + model%mass(i)%inertia
+      end do
+      masses%total = masses%total + masses%point(k)%mass
+      masses%block(b) = size(system%element) + size(system%load) + k
+      masses%node(:, 1, b) = system%mass_node(k)
+      masses%coordinates(b) = 6
+      masses%coordinate(:6, b) = coordinate_number(system%mass_node(k), [(j, j=1, 6)])
+    end do
+  end subroutine add_points
 
   pure logical function has_mass(model, i)
     type(model_t), intent(in) :: model
@@ -53,6 +136,20 @@ contains
     has_mass = model%member(i)%mass /= mass_none .and. &
                any(abs(line_densities(model, model%member(i))) > 0)
   end function has_mass
+
+  !> Mass per length of a TRUSS, else zero [M L^-1].
+  pure elemental function truss_density(model, joint) result(density)
+    type(model_t), intent(in) :: model
+    type(joint_t), intent(in) :: joint
+    real(wp) :: density
+
+    density = 0
+    if (joint%kind /= joint_truss .or. joint%mass == mass_none) return
+    density = joint%inertia
+    if (joint%section > 0 .and. joint%material > 0) then
+      density = model%section(joint%section)%constants%a*model%material(joint%material)%rho
+    end if
+  end function truss_density
 
   !> rho A, rho Ip, Iy, Iz, Iyz, rho Iw: those of EM, else of section and material.
   pure function line_densities(model, member) result(density)
@@ -78,7 +175,8 @@ contains
     real(wp) :: centre(2)
 
     centre = 0
-    if (member%section > 0 .and. .not. member%has_stiffness .and. .not. member%rigid) then
+    if (member%section > 0 .and. .not. member%has_stiffness .and. .not. member%rigid &
+        .and. member%kind /= type_beam) then
       centre = [model%section(member%section)%constants%ys, &
                 model%section(member%section)%constants%zs]
     end if
@@ -93,25 +191,47 @@ contains
     type(masses_t), intent(in) :: masses
     type(state_t), intent(in) :: state
     real(wp), intent(out) :: values(:)
-    real(wp) :: mass(14, 14)
+    real(wp) :: mass(body_size, body_size)
     integer :: k
 
     values = 0
-    do k = 1, size(masses%member)
-      call mass_of(masses, k, state, mass)
-      call add_block(system%pattern, masses%member(k), mass, values)
+    do k = 1, masses%bodies
+      call body_mass(masses, k, state, mass)
+      associate (n => masses%coordinates(k))
+        call add_block(system%pattern, masses%block(k), mass(:n, :n), values)
+      end associate
     end do
   end subroutine assemble_mass
 
-  pure subroutine mass_of(masses, k, state, mass)
+  !> Mass matrix of a body in its first coordinates.
+  pure subroutine body_mass(masses, k, state, mass)
     type(masses_t), intent(in) :: masses
     integer, intent(in) :: k
     type(state_t), intent(in) :: state
-    real(wp), intent(out) :: mass(14, 14)
+    real(wp), intent(out) :: mass(body_size, body_size)
+    real(wp), parameter :: still(6) = 0
+    real(wp) :: force(6), rate(6, 6), place(6, 6)
 
-    call inertia_mass(masses%inertia(k), state%euler(:, masses%node(2, :, k)), &
-                      state%warping(masses%node(3, :, k)), mass)
-  end subroutine mass_of
+    if (k <= masses%beams) then
+      call inertia_mass(masses%beam(k), state%euler(:, masses%node(2, :, k)), &
+                        state%warping(masses%node(3, :, k)), mass)
+    else if (k <= masses%beams + masses%trusses) then
+      mass(:6, :6) = masses%truss(:, :, k - masses%beams)
+    else
+      call node_inertia_forces(masses%point(k - masses%beams - masses%trusses), &
+                               state%euler(:, masses%node(2, 1, k)), still, still, force, &
+                               mass(:6, :6), rate, place)
+    end if
+  end subroutine body_mass
+
+  !> Coordinates of a body.
+  pure function body_coordinates(masses, k) result(at)
+    type(masses_t), intent(in) :: masses
+    integer, intent(in) :: k
+    integer :: at(masses%coordinates(k))
+
+    at = masses%coordinate(:size(at), k)
+  end function body_coordinates
 
   !> Mass times motions, by coordinate, held ones included.
   pure subroutine mass_product(masses, state, motion, product)
@@ -119,15 +239,16 @@ contains
     type(state_t), intent(in) :: state
     real(wp), intent(in) :: motion(:, :)     !< (coordinates, motions)
     real(wp), intent(out) :: product(:, :)
-    real(wp) :: mass(14, 14)
-    integer :: k, at(14)
+    real(wp) :: mass(body_size, body_size)
+    integer :: k, n
 
     product = 0
-    do k = 1, size(masses%member)
-      call mass_of(masses, k, state, mass)
-      at = coordinate_number(reshape(masses%node([1, 1, 1, 2, 2, 2, 3], :, k), [14]), &
-                             [1, 2, 3, 4, 5, 6, 7, 1, 2, 3, 4, 5, 6, 7])
-      product(at, :) = product(at, :) + matmul(mass, motion(at, :))
+    do k = 1, masses%bodies
+      call body_mass(masses, k, state, mass)
+      n = masses%coordinates(k)
+      associate (at => masses%coordinate(:n, k))
+        product(at, :) = product(at, :) + matmul(mass(:n, :n), motion(at, :))
+      end associate
     end do
   end subroutine mass_product
 

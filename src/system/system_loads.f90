@@ -3,7 +3,7 @@ module system_loads
   use kinds, only: wp
   use nodal_state, only: state_t, coordinate_number, node_coordinates
   use rotation, only: rotation_matrix, cross, skew, identity3
-  use model_functions, only: function_value
+  use model_functions, only: function_value, function_jet
   use system_data, only: system_t, dead_load_t
   use system_pattern, only: add_block
   implicit none
@@ -23,6 +23,7 @@ contains
     do i = 1, size(system%load)
       associate (load => system%load(i))
         factor(i) = level(load%pattern)
+        if (system%timed(load%pattern)) factor(i) = 1
         if (load%function > 0) then
           factor(i) = function_value(system%function(load%function), level(load%pattern))
         end if
@@ -36,13 +37,17 @@ contains
     type(state_t), intent(in) :: state
     real(wp), intent(in) :: level(:)
     real(wp), intent(inout) :: total(:), values(:)
-    real(wp) :: force(9), tangent(6, 6), factor(size(system%load))
+    real(wp) :: force(9), tangent(7, 7), factor(size(system%load))
     integer :: i
 
     factor = amplitudes(system, level)
     do i = 1, size(system%load)
       associate (load => system%load(i))
-        call dead_load(load, factor(i), state, force, tangent)
+        if (load%follower) then
+          call follower_load(load, factor(i), state, force, tangent)
+        else
+          call dead_load(load, factor(i), state, force, tangent(:6, :6))
+        end if
         call add_force(load, force, total)
         associate (n => system%pattern%width(size(system%element) + i))
           call add_block(system%pattern, size(system%element) + i, tangent(:n, :n), values)
@@ -51,16 +56,14 @@ contains
     end do
   end subroutine add_loads
 
-  !> Derivative of the forces (by coordinate) to the level of one pattern; that of a function by
-  !> central differences, whose error, 1e-10, only costs iterations.
+  !> Derivative of the forces (by coordinate) to the level of one pattern.
   pure subroutine load_direction(system, state, level, pattern, direction)
     type(system_t), intent(in) :: system
     type(state_t), intent(in) :: state
     real(wp), intent(in) :: level(:)
     integer, intent(in) :: pattern
     real(wp), intent(out) :: direction(:)
-    real(wp), parameter :: h = 1.0e-5_wp
-    real(wp) :: force(9), tangent(6, 6), rate
+    real(wp) :: force(9), tangent(7, 7), rate, jet(0:2)
     integer :: i
 
     direction = 0
@@ -69,11 +72,14 @@ contains
         if (load%pattern /= pattern) cycle
         rate = 1
         if (load%function > 0) then
-          associate (f => system%function(load%function), s => level(pattern))
-            rate = (function_value(f, s + h) - function_value(f, s - h))/(2*h)
-          end associate
+          call function_jet(system%function(load%function), level(pattern), jet)
+          rate = jet(1)
         end if
-        call dead_load(load, rate, state, force, tangent)
+        if (load%follower) then
+          call follower_load(load, rate, state, force, tangent)
+        else
+          call dead_load(load, rate, state, force, tangent(:6, :6))
+        end if
         call add_force(load, force, direction)
       end associate
     end do
@@ -127,6 +133,29 @@ contains
       end do
     end do
   end subroutine dead_load
+
+  !> A force and moment that turn with the node, M = R (m + (arm + alpha warp) x f) about it; the
+  !> tangent on rotation, alpha and translation (theory 6).
+  pure subroutine follower_load(load, factor, state, force, tangent)
+    type(dead_load_t), intent(in) :: load
+    real(wp), intent(in) :: factor
+    type(state_t), intent(in) :: state
+    real(wp), intent(out) :: force(9), tangent(7, 7)
+    real(wp) :: r(3, 3), f(3), warp(3)
+
+    r = rotation_matrix(state%euler(:, load%node(2)))
+    f = factor*matmul(r, load%force)
+    warp = matmul(r, load%warp)
+    force = 0
+    force(1:3) = f
+    force(4:6) = factor*matmul(r, load%moment) &
+                 + cross(matmul(r, load%arm) + state%warping(load%node(3))*warp, f)
+    force(7) = dot_product(warp, f) + factor*load%bimoment
+    tangent = 0
+    tangent(1:3, 1:3) = 0.5_wp*skew(force(4:6))
+    tangent(1:3, 4) = -cross(warp, f)
+    tangent(5:7, 1:3) = skew(f)
+  end subroutine follower_load
 
   !> The arm, turned by the released bending strains at its end, and its first and second
   !> derivatives to them: cos(t) arm + sin(t)/t (a1 axes1 + a2 axes2), t**2 = a1**2 + a2**2.

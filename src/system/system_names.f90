@@ -1,8 +1,8 @@
 !> Names of coordinates and strains, for messages.
 module system_names
-  use text, only: to_text
-  use model_data, only: model_t
-  use nodal_state, only: node_coordinates
+  use text, only: to_text, lower
+  use model_data, only: model_t, joint_truss, joint_names
+  use nodal_state, only: node_coordinates, coordinate_number
   use system_data, only: system_t
   implicit none
   private
@@ -26,12 +26,16 @@ contains
     name = "node "//with_part(model%node(node)%id, model%node(node)%part)
   end function node_name
 
-  !> "element 3", "element 5.2".
+  !> "element 3", "element 5.2"; joints come behind the members.
   pure function member_name(model, member) result(name)
     type(model_t), intent(in) :: model
     integer, intent(in) :: member
     character(len=:), allocatable :: name
 
+    if (member > size(model%member)) then
+      name = "element "//to_text(model%joint(member - size(model%member))%id)
+      return
+    end if
     name = "element "//with_part(model%member(member)%id, model%member(member)%part)
   end function member_name
 
@@ -59,7 +63,8 @@ contains
     end if
   end function coordinate_name
 
-  !> "element 3 mode 2 (torsion)"; strains that hold a rotation name the node.
+  !> "element 3 mode 2 (torsion)", "element 4 mode 1 (hinge)"; strains that are coordinates of a
+  !> node are named as such.
   pure function strain_name(model, system, strain) result(name)
     type(model_t), intent(in) :: model
     type(system_t), intent(in) :: system
@@ -74,10 +79,37 @@ contains
     mode = strain - system%first(e)
     if (e <= system%members) then
       name = member_name(model, e)//" mode "//to_text(mode)//" ("//trim(mode_name(mode))//")"
+    else if (e <= system%members + system%joints) then
+      associate (joint => model%joint(e - system%members))
+        name = member_name(model, e)//" mode "//to_text(mode)//" ("
+        if (joint%kind == joint_truss) then
+          name = name//"elongation)"
+        else
+          name = name//lower(trim(joint_names(joint%kind)))//")"
+        end if
+      end associate
     else
-      name = "the fixed rotation of "// &
-             node_name(model, (system%element(e)%e%coordinate(1) - 1)/node_coordinates + 1)
+      name = held_name(model, system, e, mode)
     end if
   end function strain_name
+
+  !> "node 3 RX"; fixed rotations that need a constraint say so.
+  pure function held_name(model, system, e, mode) result(name)
+    type(model_t), intent(in) :: model
+    type(system_t), intent(in) :: system
+    integer, intent(in) :: e, mode
+    character(len=:), allocatable :: name
+    integer :: node, i, n
+
+    node = (system%element(e)%e%coordinate(1) - 1)/node_coordinates + 1
+    n = 0
+    do i = 1, node_coordinates
+      if (system%holder(i, node) /= e) cycle
+      n = n + 1
+      if (n == mode) exit
+    end do
+    name = coordinate_name(model, coordinate_number(node, i))
+    if (model%node(node)%fixed(i)) name = "the fixed rotation of "//node_name(model, node)
+  end function held_name
 
 end module system_names

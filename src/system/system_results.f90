@@ -77,6 +77,7 @@ contains
 
     n = node_coordinates*system%nodes
     reaction = iterate%internal(:n) + iterate%constraint(:n) - iterate%external(:n)
+    if (allocated(iterate%inertial)) reaction = reaction + iterate%inertial(:n)
     do k = 1, n
       if (system%unknown(k) > 0) reaction(k) = 0
     end do
@@ -104,10 +105,7 @@ contains
     allocate (results%force_p(7, system%members), results%force_q(7, system%members))
     do e = 1, system%members
       first = system%first(e)
-      do i = 1, result_modes
-        stress(i) = iterate%elastic(first + i)
-        if (system%multiplier(first + i) > 0) stress(i) = iterate%stress(first + i)
-      end do
+      stress = [(stress_resultant(system, iterate, first + i), i=1, result_modes)]
       shift = shear_centre_shift(model, e)
       results%strain(:, e) = iterate%strain(first + 1:first + result_modes)
       results%strain(3:6, e) = results%strain(3:6, e) - shift*results%strain(2, e)
@@ -134,11 +132,21 @@ contains
       k = system%first(system%members + j)
       do i = 1, system%element(system%members + j)%e%strains
         results%joint_strain(i, j) = iterate%strain(k + i)
-        results%joint_stress(i, j) = iterate%elastic(k + i)
-        if (system%multiplier(k + i) > 0) results%joint_stress(i, j) = iterate%stress(k + i)
+        results%joint_stress(i, j) = stress_resultant(system, iterate, k + i)
       end do
     end do
   end subroutine get_joints
+
+  !> Stress resultant of a strain: its multiplier, or the elastic part and the viscous one.
+  pure real(wp) function stress_resultant(system, iterate, k) result(stress)
+    type(system_t), intent(in) :: system
+    type(iterate_t), intent(in) :: iterate
+    integer, intent(in) :: k
+
+    stress = iterate%elastic(k)
+    if (allocated(iterate%viscous)) stress = stress + iterate%viscous(k)
+    if (system%multiplier(k) > 0) stress = iterate%stress(k)
+  end function stress_resultant
 
   !> Column 2 of E, rows 3 to 6.
   pure function shear_centre_shift(model, e) result(shift)
@@ -166,10 +174,7 @@ contains
 
     offset = system%jacobian(e)
     k = system%first(e)
-    do i = 1, element%strains
-      stress(i) = iterate%elastic(k + i)
-      if (system%multiplier(k + i) > 0) stress(i) = iterate%stress(k + i)
-    end do
+    stress = [(stress_resultant(system, iterate, k + i), i=1, element%strains)]
     do i = 1, element%coordinates
       force(i) = dot_product(stress, iterate%jacobian(offset + 1:offset + element%strains))
       offset = offset + element%strains

@@ -18,11 +18,12 @@ module deck_samples
 contains
 
   !> Read a deck.
-  subroutine read_sample(cards, model, report, settings)
+  subroutine read_sample(cards, model, report, settings, mode)
     character(len=*), intent(in) :: cards
     type(model_t), intent(out) :: model
     type(report_t), intent(out) :: report
     type(setting_t), intent(in), optional :: settings(:)
+    integer, intent(in), optional :: mode   !< of SPACAR
     type(setting_t) :: none(0)
     character(len=:), allocatable :: text
     integer :: i
@@ -32,20 +33,21 @@ contains
       if (text(i:i) == "|") text(i:i) = newline
     end do
     if (present(settings)) then
-      call read_deck_text("sample.deck", text, settings, model, report)
+      call read_deck_text("sample.deck", text, settings, model, report, mode=mode)
     else
-      call read_deck_text("sample.deck", text, none, model, report)
+      call read_deck_text("sample.deck", text, none, model, report, mode=mode)
     end if
   end subroutine read_sample
 
   !> Read a deck that must have no errors.
-  subroutine read_sound(cards, model)
+  subroutine read_sound(cards, model, mode)
     character(len=*), intent(in) :: cards
     type(model_t), intent(out) :: model
+    integer, intent(in), optional :: mode   !< of SPACAR
     type(report_t) :: report
     integer :: i
 
-    call read_sample(cards, model, report)
+    call read_sample(cards, model, report, mode=mode)
     call expect(report%errors() == 0, "no errors")
     if (report%errors() == 0) return
     do i = 1, report%items

@@ -13,7 +13,7 @@ module memory_recorder
   implicit none
   private
 
-  public :: memory_t, run_deck
+  public :: memory_t, run_deck, run_model
 
   type, extends(recorder_t) :: memory_t
     integer :: steps = 0
@@ -25,11 +25,13 @@ module memory_recorder
     logical, allocatable :: completed(:)      !< by analysis
     type(modes_t), allocatable :: spectrum(:) !< of BUCKLING and EIGEN, in their order
     type(critical_t), allocatable :: critical(:)
+    real(wp), allocatable :: compliances(:, :, :)  !< of the last COMPLIANCE
   contains
     procedure :: begin => memory_begin
     procedure :: iteration => memory_iteration
     procedure :: remark => memory_remark
     procedure :: critical_point => memory_critical
+    procedure :: compliance => memory_compliance
     procedure :: step => memory_step
     procedure :: modes => memory_modes
     procedure :: finish => memory_finish
@@ -59,13 +61,7 @@ contains
         override(i)%value = trim(adjustl(settings(i)(at + 1:)))
       end do
     end if
-    memory%steps = 0
-    if (allocated(memory%record)) deallocate (memory%record, memory%results)
-    if (allocated(memory%remarks)) deallocate (memory%remarks, memory%completed, memory%critical)
-    if (allocated(memory%spectrum)) deallocate (memory%spectrum)
-    allocate (memory%record(400), memory%results(400), memory%remarks(0), memory%completed(0))
-    allocate (memory%spectrum(0))
-    allocate (memory%critical(0))
+    call reset(memory)
     call read_deck("tests/cases/static/"//name//".deck", override, model, report, error)
     if (allocated(error)) return
     if (report%errors() > 0) then
@@ -74,8 +70,30 @@ contains
       error%message = "errors in the deck "//name
       return
     end if
-    call run_analyses(model, memory, error)
+    call run_model(model, memory, error)
   end subroutine run_deck
+
+  !> Run a model from the start.
+  subroutine run_model(model, memory, error)
+    type(model_t), intent(in) :: model
+    type(memory_t), intent(inout) :: memory
+    type(error_t), allocatable, intent(out) :: error
+
+    call reset(memory)
+    call run_analyses(model, memory, error)
+  end subroutine run_model
+
+  subroutine reset(memory)
+    type(memory_t), intent(inout) :: memory
+
+    memory%steps = 0
+    if (allocated(memory%record)) deallocate (memory%record, memory%results)
+    if (allocated(memory%remarks)) deallocate (memory%remarks, memory%completed, memory%critical)
+    if (allocated(memory%spectrum)) deallocate (memory%spectrum)
+    allocate (memory%record(400), memory%results(400), memory%remarks(0), memory%completed(0))
+    allocate (memory%spectrum(0))
+    allocate (memory%critical(0))
+  end subroutine reset
 
   subroutine memory_begin(self, number, analysis, error)
     class(memory_t), intent(inout) :: self
@@ -120,6 +138,16 @@ contains
     call move_alloc(more, self%critical)
     if (point%step < 0) allocate (error)
   end subroutine memory_critical
+
+  subroutine memory_compliance(self, node, matrix, error)
+    class(memory_t), intent(inout) :: self
+    integer, intent(in) :: node(:)
+    real(wp), intent(in) :: matrix(:, :, :)
+    type(error_t), allocatable, intent(out) :: error
+
+    self%compliances = matrix
+    if (size(node) /= size(matrix, 3)) allocate (error)
+  end subroutine memory_compliance
 
   subroutine memory_step(self, step, results, error)
     class(memory_t), intent(inout) :: self

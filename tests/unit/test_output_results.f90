@@ -5,6 +5,8 @@ module test_output_results
   use kinds, only: wp
   use check, only: run, expect, expect_close
   use output_dimensions, only: get_powers
+  use model_data, only: model_t
+  use history_samples, only: get_history_model, write_history
   use program_runs, only: outcome_t, run_spar, scratch, read_text
   use result_reader, only: get_reals, get_integers, get_text, get_numbers
   implicit none
@@ -13,6 +15,7 @@ module test_output_results
   public :: run_output_results_tests
 
   character(len=*), parameter :: marker = "markers/NAME"
+  character(len=*), parameter :: static = "analysis/01_static", history = "analysis/01_transient"
   character(len=*), parameter :: drawing = "drawings/NAME/"
   character(len=*), parameter :: decks(3) = ["tests/cases/program/cantilever.deck", &
                                              "decks/spacar.deck                  ", &
@@ -22,6 +25,7 @@ contains
 
   subroutine run_output_results_tests()
     call run("results: the file is as docs/results.md says", test_documentation)
+    call run("results: motions in time are as docs/results.md says", test_history)
     call run("results: reactions balance the loads", test_balance)
     call run("results: the model", test_model)
   end subroutine run_output_results_tests
@@ -48,6 +52,25 @@ contains
     call expect(described(2) == described(1) + 1, "ESTIFF and EM give two more, MARKER one")
     call expect(described(3) == described(1) + 15, "a drawing nine more, its stresses five and one")
   end subroutine test_documentation
+
+  !> The same for a motion in time, where OUTPUT chooses, and COMPLIANCE; the rows of STATIC go for
+  !> it too.
+  subroutine test_history()
+    type(model_t) :: model
+    character(len=:), allocatable :: page, path
+    integer :: described
+
+    call read_text("docs/results.md", page)
+    path = scratch("documented_history.h5")
+    call get_history_model(5, model)
+    model%kept_node = [2]
+    model%kept_member = [1, 3]
+    call write_history(path, model, 5)
+    call compare_rows(page, path, described)
+    call expect(described == datasets(path, "/deck") + datasets(path, "/model") &
+                + datasets(path, "/analysis") + drawn(path), "every dataset is described")
+    call expect(described > 100, "the page was read")
+  end subroutine test_history
 
   !> Datasets of /VTKHDF that are no mere matter of its format; stresses belong to outlines.
   integer function drawn(path)
@@ -80,10 +103,13 @@ contains
     character(len=*), intent(in) :: line, path
     integer, intent(inout) :: found
     character(len=:), allocatable :: name, axes, description
-    integer, allocatable :: powers(:), wanted(:, :)
+    integer, allocatable :: powers(:), wanted(:, :), time(:)
     integer :: at
 
     name = bare(cell(line, 1))
+    call get_numbers(path, history//"/time", "dimension", time)
+    at = index(name, static)
+    if (at > 0 .and. size(time) > 0) name = name(:at - 1)//history//name(at + len(static):)
     at = index(name, marker)
     if (at > 0) name = name(:at - 1)//"markers/tip"
     at = index(name, drawing)
@@ -107,7 +133,7 @@ contains
   subroutine compare_shape(path, name, shape_text, axes)
     character(len=*), intent(in) :: path, name, shape_text, axes
     integer, allocatable :: values(:), extents(:)
-    integer :: columns, comma
+    integer :: columns, comma, rank, i
 
     call get_integers(path, name, values, extents)
     comma = index(shape_text, ",")
@@ -117,7 +143,8 @@ contains
       call expect(size(extents) == 1, name//": one index")
     else
       read (shape_text(comma + 1:len(shape_text) - 1), *) columns
-      call expect(size(extents) == 2, name//": two indices")
+      rank = 1 + count([(shape_text(i:i) == ",", i=1, len(shape_text))])
+      call expect(size(extents) == rank, name//": number of indices")
       call expect(extents(size(extents)) == columns, name//": "//shape_text)
       call expect(index(axes, ";") > 0, name//": axes of both")
     end if

@@ -1,4 +1,4 @@
-"""spar-plot: path curves, deformed frames, mode shapes and surfaces from result files of spar."""
+"""spar-plot: path curves, time histories, deformed frames, mode shapes, surfaces of spar's results."""
 import argparse
 import sys
 from pathlib import Path
@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 
 from . import figures, surface
-from .results import ResultError, Results
+from .results import IN_TIME, ResultError, Results
 from .shapes import Shapes
 
 
@@ -23,6 +23,18 @@ def parser():
     curve.add_argument("--y-label", metavar="TEXT")
     curve.add_argument("--label", action="append", metavar="TEXT", help="of each curve, in order")
     curve.add_argument("--no-origin", action="store_true", help="do not add the point (0, 0)")
+    history = commands.add_parser("history", help="quantities of a motion against time")
+    history.add_argument("files", nargs="+", metavar="OUT.h5")
+    history.add_argument("--node", action="append", default=[], metavar="ID",
+                         help="7, or 7.2 for an inner node; may be repeated")
+    history.add_argument("--component", action="append", metavar="X",
+                         help="X, Y, Z, angle or warping of the nodes (default: X, Y and Z)")
+    history.add_argument("--quantity", default="displacement", metavar="NAME",
+                         help="displacement, velocity, acceleration, angular_velocity, ...")
+    history.add_argument("--y", action="append", default=[], metavar="PATH",
+                         help="another series: energy/kinetic, markers/NAME/Z, joints/ID/strain/1")
+    history.add_argument("--time-unit", default="", metavar="TEXT", help="the deck's unit of time")
+    history.add_argument("--y-label", metavar="TEXT")
     frames = commands.add_parser("frames", help="deformed shapes of steps of a static analysis")
     frames.add_argument("--steps", nargs="+", type=int, metavar="N",
                         help="recorded steps, 0 the initial one (default: six)")
@@ -35,7 +47,7 @@ def parser():
                              help="XZ, XY, YZ or AZIMUTH,ELEVATION in degrees")
         command.add_argument("--outline", metavar="Y,Z:Y,Z...",
                              help="midline of an open section, drawn along the beams")
-    for command in (curve, frames, modes):
+    for command in (curve, history, frames, modes):
         command.add_argument("--analysis", metavar="NAME", help="number or name (default: last)")
         command.add_argument("--unit", default="", metavar="TEXT", help="the deck's unit of length")
         command.add_argument("-o", "--output", metavar="PICTURE", help=".png, .pdf or .svg")
@@ -102,10 +114,48 @@ def plot_curve(options):
     return figure
 
 
+def history_paths(options):
+    """The series asked for."""
+    paths = []
+    for node in options.node:
+        for component in options.component or ["X", "Y", "Z"]:
+            whole = options.quantity == "displacement" or component in ("angle", "warping")
+            paths.append(f"nodes/{node}/{'' if whole else options.quantity + '/'}{component}")
+    if not paths + options.y:
+        raise ResultError("nothing to draw: give --node or --y")
+    return paths + options.y
+
+
+def plot_history(options):
+    """A figure of quantities against time."""
+    figure, axes = figures.new_figure(6.0, 3.2)
+    paths = history_paths(options)
+    for name in options.files:
+        with Results(name) as results:
+            group = results.analysis(options.analysis, IN_TIME)
+            time = results.series(group, "time")
+            for path in paths:
+                words = [Path(name).stem] * (len(options.files) > 1)
+                words += [axis_label(path, "")] * (len(paths) > 1)
+                axes.plot(time, results.series(group, path), label=" ".join(words) or None)
+    axes.set_xlabel(figures.with_unit("time", options.time_unit))
+    axes.set_ylabel(options.y_label or (axis_label(paths[0], options.unit)
+                                        if len(paths) == 1 else ""))
+    if axes.get_legend_handles_labels()[0]:
+        axes.legend()
+    return figure
+
+
 def axis_label(path, unit):
     """`-markers/D/Z` read aloud, with the unit."""
     sign = "\N{MINUS SIGN}" if path.startswith("-") else ""
     words = path.lstrip("-").split("/")
+    if words[0] == "nodes" and len(words) == 4:
+        return f"{sign}{words[2].replace('_', ' ')} {words[3].upper()} of node {words[1]}"
+    if words[0] == "energy":
+        return f"{sign}{words[1]} (energy)"
+    if words[0] == "joints" and len(words) == 4:
+        return f"{sign}{words[2]} {words[3]} of joint {words[1]}"
     if words[-1].upper() in ("X", "Y", "Z"):
         where = f"{words[0][:-1]} {words[1]}"
         return figures.with_unit(f"{sign}displacement {words[-1].upper()} of {where}", unit)
@@ -198,7 +248,8 @@ def plot_surface(options, output):
 def main(arguments=None):
     """Draw what is asked for; exit status 2 with one line if it is not in the file."""
     options = parser().parse_args(arguments)
-    draw = {"curve": plot_curve, "frames": plot_frames, "modes": plot_modes}
+    draw = {"curve": plot_curve, "history": plot_history, "frames": plot_frames,
+            "modes": plot_modes}
     output = options.output or f"{Path(options.files[0]).stem}_{options.command}.png"
     try:
         for name in options.files:

@@ -3,6 +3,7 @@ import h5py
 import numpy as np
 
 COMPONENTS = {"X": 0, "Y": 1, "Z": 2}
+IN_TIME = ("transient", "kinematic", "inverse")
 
 
 class ResultError(Exception):
@@ -61,7 +62,7 @@ class Results:
         return found[-1]
 
     def kind(self, group):
-        """static, buckling or eigen."""
+        """static, transient, buckling, ..."""
         return self._text(group.attrs["kind"])
 
     def node(self, word):
@@ -79,13 +80,25 @@ class Results:
     def stacked(self, group, path):
         """A stacked table of nodes by step or mode: (steps, nodes, columns)."""
         table = group[path][()]
-        return table.reshape(-1, len(self.position), *table.shape[1:])
+        nodes = len(group["nodes/index"] if "nodes/index" in group else self.position)
+        return table.reshape(-1, nodes, *table.shape[1:])
+
+    def kept_row(self, group, word):
+        """Row of a node among those that the analysis keeps."""
+        row = self.node(word)
+        if "nodes/index" not in group:
+            return row
+        found = np.flatnonzero(group["nodes/index"][:, 0] == row)
+        if not found.size:
+            raise ResultError(f"{group.name} has not kept node {word}: see OUTPUT NODES")
+        return found[0]
 
     def series(self, group, path):
         """One number for each step; a sign in front reverses it.
 
-        load_factor, nodes/ID/X, markers/NAME/Z, nodes/ID/angle (of rotation, in radians), or any
-        other dataset of the analysis with one number a step.
+        load_factor, time, nodes/ID/X, nodes/ID/velocity/X, nodes/ID/angle (of rotation, in
+        radians), markers/NAME/Z, joints/ID/strain/1, or any other dataset of the analysis with one
+        number a step, as energy/kinetic.
         """
         if path.startswith("-"):
             return -self.series(group, path[1:])
@@ -93,6 +106,8 @@ class Results:
         name, _, component = rest.rpartition("/")
         if kind == "nodes" and component:
             return self._of_node(group, name, component)
+        if kind == "joints" and component:
+            return self._of_joint(group, name, component)
         if kind == "markers" and component and f"markers/{name}" in group:
             return group[f"markers/{name}"][:, self._column(component)]
         data = group.get(path)
@@ -100,8 +115,23 @@ class Results:
             raise ResultError(f"{group.name} has no series '{path}'")
         return data[()]
 
+    def _of_joint(self, group, name, mode):
+        name, _, quantity = name.partition("/")
+        ids = self.file.get("model/joints/id")
+        rows = np.flatnonzero(ids[()] == int(name)) if ids is not None and name.isdigit() else []
+        table = group.get(f"joints/{quantity}") if quantity else None
+        if not len(rows) or table is None or not mode.isdigit() or not 1 <= int(mode) <= 6:
+            raise ResultError(f"{group.name} has no series 'joints/{name}/{quantity}/{mode}':"
+                              " write joints/ID/strain/1")
+        return table[()].reshape(-1, len(ids), 6)[:, rows[0], int(mode) - 1]
+
     def _of_node(self, group, name, component):
-        row = self.node(name)
+        name, _, quantity = name.partition("/")
+        row = self.kept_row(group, name)
+        if quantity:
+            if f"nodes/{quantity}" not in group:
+                raise ResultError(f"{group.name} has no nodes/{quantity}")
+            return self.stacked(group, f"nodes/{quantity}")[:, row, self._column(component)]
         if component == "angle":
             euler = self.stacked(group, "nodes/euler")[:, row]
             return 2 * np.arctan2(np.linalg.norm(euler[:, 1:], axis=1), abs(euler[:, 0]))
@@ -119,6 +149,8 @@ class Results:
     def step_state(self, group, step):
         """Displacements, rotation matrices, warping of a recorded step from 1; 0: the initial."""
         nodes = len(self.position)
+        if "nodes/index" in group:
+            raise ResultError(f"{group.name} has not kept all nodes: see OUTPUT NODES")
         if step == 0:
             return np.zeros((nodes, 3)), np.tile(np.eye(3), (nodes, 1, 1)), np.zeros(nodes)
         steps = len(group["step"])
