@@ -16,7 +16,7 @@ CHECK   = -O1 -fcheck=all,no-array-temps -fsanitize=address,undefined \
 all: $(B)/spar  ## build the program (default)
 
 .PHONY: all programs setup venv demo test check-build coverage lint bench docs validation \
-        check-validation install clean help FORCE
+        check-validation check-vtk install clean help FORCE
 .DELETE_ON_ERROR:
 .SUFFIXES:
 Q = $(if $(V),,@)
@@ -151,6 +151,9 @@ validation: $(B)/spar $(VENV)/plots  ## run the validation problems, write docs/
 check-validation: $(B)/spar $(VENV)/ready  ## the same runs against the numbers of that page
 	@SPAR_PROGRAM=$(B)/spar $(VENV)/bin/python3 tools/validation.py --check
 
+check-vtk: $(B)/spar $(VENV)/vtk  ## read drawings of results with VTK, check every point
+	@SPAR_PROGRAM=$(B)/spar $(VENV)/bin/python3 tools/check_vtk.py
+
 bench: $(B)/spar $(B)/bench_tangent $(B)/bench_recorder  ## measure speed and memory (tools/bench)
 	@SPAR_PROGRAM=$(B)/spar BENCH_TANGENT=$(B)/bench_tangent \
 	BENCH_RECORDER=$(B)/bench_recorder tools/bench
@@ -170,13 +173,13 @@ install: $(B)/spar  ## install under PREFIX=/usr/local, or under DESTDIR before 
 setup: $(CONFIG)  ## find or install compiler and libraries
 	@cat $(CONFIG)
 
-venv: $(VENV)/ready $(VENV)/plots  ## Python environment of the developers' tools
+venv: $(VENV)/ready $(VENV)/vtk $(VENV)/plots  ## Python environment of the developers' tools
 
 $(VENV)/ready: tools/setup
 	@tools/setup venv $(VENV)
 
-$(VENV)/plots: $(VENV)/ready
-	@tools/setup plots $(VENV)
+$(VENV)/vtk $(VENV)/plots: $(VENV)/ready
+	@tools/setup $(@F) $(VENV)
 
 clean:  ## remove everything built
 	rm -rf $(B) $(B)-check $(B)-coverage $(B)-lint

@@ -5,15 +5,19 @@ module beam_curve
   implicit none
   private
 
-  public :: beam_ends_t, station_t, beam_station, relative_rotation
+  public :: beam_shape_t, beam_ends_t, station_t, beam_station, relative_rotation
 
-  !> The ends of a beam now, and what it was.
-  type :: beam_ends_t
+  !> An undeformed beam.
+  type :: beam_shape_t
     real(wp) :: chord(3) = 0.0_wp           !< initial vector from p to q [L]
     real(wp) :: triad(3, 3) = 0.0_wp        !< initial axes
     real(wp) :: shear_centre(2) = 0.0_wp    !< y, z from the centroid [L]
     logical :: warps = .false.              !< carries a bimoment
     real(wp) :: shear = 0.0_wp              !< share of warping shear, Phi/(1 + Phi), theory 4
+  end type beam_shape_t
+
+  !> A beam and where its ends are now.
+  type, extends(beam_shape_t) :: beam_ends_t
     real(wp) :: displacement(3, 2) = 0.0_wp !< of p and q [L]
     real(wp) :: euler(0:3, 2) = 0.0_wp      !< Euler parameters
     real(wp) :: warping(2) = 0.0_wp         !< alpha [L^-1]
@@ -31,7 +35,7 @@ contains
   !> The section at xi = x/l0. The line of centroids is the cubic of theory 9 with end slopes
   !> R (eX + alpha s), s = zs eY - ys eZ. The section turns evenly from end to end, is tilted until
   !> it is normal to the cubic of the shear centres, whose slopes are R eX, and twisted to the cubic
-  !> twist of theory 5 c with the mean shear strain of warping.
+  !> twist of theory 5 c with the mean shear strain of warping. At the ends it is the nodes'.
   pure function beam_station(ends, xi) result(station)
     type(beam_ends_t), intent(in) :: ends
     real(wp), intent(in) :: xi
@@ -40,6 +44,12 @@ contains
     real(wp) :: tangent(3)
     integer :: e
 
+    if (xi <= 0 .or. xi >= 1) then
+      e = merge(1, 2, xi <= 0)
+      station = station_t(ends%displacement(:, e), ends%euler(:, e), 0.0_wp)
+      if (ends%warps) station%warping = ends%warping(e)
+      return
+    end if
     length = norm2(ends%chord)
     h = [xi*(1 - xi)**2, xi**2*(3 - 2*xi), xi**2*(xi - 1)]
     d = [(1 - xi)*(1 - 3*xi), 6*xi*(1 - xi), xi*(3*xi - 2)]

@@ -8,7 +8,7 @@ module beam_drawing
   implicit none
   private
 
-  public :: posture_t, draw_motion, draw_mode, draw_forces, draw_stress
+  public :: posture_t, draw_motion, draw_mode, draw_forces, draw_stress, mode_forces
 
   !> Largest angle by which a model is moved along a mode to see how its points follow.
   real(wp), parameter :: small_angle = 1.0e-4_wp
@@ -57,7 +57,7 @@ contains
     type(posture_t), intent(in) :: posture
     type(beam_ends_t) :: ends
 
-    ends = beam%ends
+    ends%beam_shape_t = beam%ends
     ends%displacement = posture%displacement(:, beam%node(1, :))
     ends%euler = posture%euler(:, beam%node(2, :))
     if (ends%warps) ends%warping = posture%warping(beam%node(3, :))
@@ -121,6 +121,26 @@ contains
                                      turned([1, 0, 0, 0]*1.0_wp, spin(:, n)))/(2*step)
     end do
   end subroutine draw_mode
+
+  !> Section forces at the ends of the beams from the stress resultants of a mode, to first order:
+  !> theory 4, and the shear forces that balance the moments.
+  pure subroutine mode_forces(mesh, stress, force_p, force_q)
+    type(mesh_t), intent(in) :: mesh
+    real(wp), intent(in) :: stress(:, :)                     !< (8, members) [F]
+    real(wp), intent(out) :: force_p(:, :), force_q(:, :)    !< (7, members) N Vy Vz T My Mz B
+    real(wp) :: length
+    integer :: e
+
+    do e = 1, size(mesh%beam)
+      length = norm2(mesh%beam(e)%ends%chord)
+      associate (s => stress(:, e))
+        force_p(1:3, e) = [s(1), s(5) - s(6), s(4) - s(3)]
+        force_p(4:7, e) = length*[s(2), s(3), s(5), -length*s(7)]
+        force_q(1:3, e) = force_p(1:3, e)
+        force_q(4:7, e) = length*[s(2), s(4), s(6), length*s(8)]
+      end associate
+    end do
+  end subroutine mode_forces
 
   !> Section forces in the cells, linear along the beams; bars have a normal force.
   pure subroutine draw_forces(mesh, force_p, force_q, joint_stress, force)

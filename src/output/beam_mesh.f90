@@ -4,7 +4,7 @@ module beam_mesh
   use kinds, only: wp
   use section_data, only: section_constants_t, section_geometry_t, section_open, section_closed
   use beamw_rigidity, only: rigidity_t, shear_compliance
-  use beam_curve, only: beam_ends_t
+  use beam_curve, only: beam_shape_t
   use model_data, only: model_t, member_t, mode_flexible, joint_truss
   use system_constants, only: member_rigidity
   implicit none
@@ -15,9 +15,9 @@ module beam_mesh
   !> Cell types of VTK.
   integer, parameter, public :: line_cell = 3, polygon_cell = 7, quad_cell = 9
 
-  !> Pieces of a beam at most, without and with outlines, and in all, where that allows more than
-  !> one each.
-  integer, parameter :: line_segments = 4, outline_segments = 3, all_segments = 1000
+  !> Pieces of a beam at most, without and with outlines; points in all, where that allows more than
+  !> one piece each. Every point costs 60 bytes a step, and writing them a tenth of a run.
+  integer, parameter :: line_segments = 4, outline_segments = 3, all_points = 3000
 
   !> What is swept along a beam: closed polygons, or the centroid alone.
   type :: profile_t
@@ -33,7 +33,7 @@ module beam_mesh
     integer :: node(3, 2) = 0     !< by kind and end, as in the model
     integer :: profile = 0        !< index
     integer :: first = 0          !< points of the mesh before its own
-    type(beam_ends_t) :: ends     !< undeformed
+    type(beam_shape_t) :: ends    !< undeformed
   end type beam_t
 
   !> A truss of the model.
@@ -70,11 +70,7 @@ contains
       call new_profile(model%section(e)%constants, model%section(e)%geometry, mesh%profile(e))
     end do
     call new_line(mesh%profile(size(mesh%profile)))
-    mesh%segments = line_segments
-    do e = 1, size(model%section)
-      if (size(mesh%profile(e)%last) > 0) mesh%segments = outline_segments
-    end do
-    mesh%segments = min(mesh%segments, max(1, all_segments/max(1, size(model%member))))
+    mesh%segments = pieces(model, mesh%profile)
     allocate (mesh%beam(size(model%member)))
     points = 0
     do e = 1, size(model%member)
@@ -88,6 +84,27 @@ contains
     call place_points(model, mesh)
     call make_cells(model, mesh)
   end subroutine new_mesh
+
+  !> In how many pieces a beam is drawn.
+  pure integer function pieces(model, profile)
+    type(model_t), intent(in) :: model
+    type(profile_t), intent(in) :: profile(:)   !< of the sections, and a line
+    integer :: e, corners
+
+    pieces = line_segments
+    corners = 0
+    do e = 1, size(model%member)
+      associate (section => model%member(e)%section)
+        if (section == 0) then
+          corners = corners + 1
+        else
+          corners = corners + size(profile(section)%omega)
+          if (size(profile(section)%last) > 0) pieces = outline_segments
+        end if
+      end associate
+    end do
+    pieces = max(1, min(pieces, all_points/max(1, corners) - 1))
+  end function pieces
 
   pure subroutine new_beam(model, member, beam)
     type(model_t), intent(in) :: model
@@ -190,6 +207,7 @@ contains
     end do
   end subroutine place_points
 
+  !> There are no more cells than points and, on average, no more than four corners to a cell.
   pure subroutine make_cells(model, mesh)
     type(model_t), intent(in) :: model
     type(mesh_t), intent(inout) :: mesh
@@ -203,7 +221,10 @@ contains
         end associate
       end do
     end do
-    allocate (mesh%corners(0), mesh%offset(1), mesh%kind(0), mesh%owner(0), mesh%middle(0))
+    associate (most => size(mesh%position, 2))
+      allocate (mesh%corners(4*most), mesh%offset(most + 1), mesh%kind(most), mesh%owner(most), &
+                mesh%middle(most))
+    end associate
     mesh%offset(1) = 0
     cells = 0
     do e = 1, size(model%member)
@@ -300,15 +321,6 @@ contains
     integer :: n
 
     n = mesh%offset(cells + 1)
-    if (cells == size(mesh%kind)) then
-      mesh%offset = [mesh%offset, spread(0, 1, cells + 16)]
-      mesh%kind = [mesh%kind, spread(0, 1, cells + 16)]
-      mesh%owner = [mesh%owner, spread(0, 1, cells + 16)]
-      mesh%middle = [mesh%middle, spread(0.0_wp, 1, cells + 16)]
-    end if
-    if (n + size(points) > size(mesh%corners)) then
-      mesh%corners = [mesh%corners, spread(0, 1, n + size(points))]
-    end if
     mesh%corners(n + 1:n + size(points)) = points
     cells = cells + 1
     mesh%offset(cells + 1) = n + size(points)

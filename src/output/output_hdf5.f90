@@ -7,6 +7,7 @@ module output_hdf5
   use hdf5, only: hid_t, hsize_t, size_t, h5dont_atexit_f, h5open_f, h5close_f, h5eset_auto_f, &
                   h5fcreate_f, h5fclose_f, h5fflush_f, h5pcreate_f, h5pclose_f, &
                   h5pset_libver_bounds_f, h5pset_fclose_degree_f, h5pset_obj_track_times_f, &
+                  h5pset_link_phase_change_f, &
                   h5gcreate_f, h5gclose_f, h5oopen_f, h5oclose_f, h5aexists_f, h5adelete_f, &
                   h5acreate_f, h5awrite_f, h5aclose_f, h5screate_f, h5screate_simple_f, &
                   h5sclose_f, h5dcreate_f, h5dwrite_f, h5dclose_f, h5tcopy_f, h5tset_size_f, &
@@ -51,6 +52,9 @@ module output_hdf5
   end type hdf5_file_t
 
   integer(hsize_t), parameter :: scalar(0) = 0_hsize_t
+
+  !> Members of a group that are listed one after the other, without an index.
+  integer, parameter :: most_links = 24
 
 contains
 
@@ -142,6 +146,8 @@ contains
 
     if (allocated(self%failure)) return
     call new_list(self, h5p_group_create_f, list)
+    call h5pset_link_phase_change_f(list, most_links, most_links - 1, status)
+    call self%check(status, "h5pset_link_phase_change_f")
     call h5gcreate_f(self%id, path, id, status, gcpl_id=list)
     call self%check(status, "h5gcreate_f")
     if (status >= 0) call h5gclose_f(id, status)

@@ -305,6 +305,7 @@ contains
       about_t("1", "node; RX RY RZ", "small rotation of the critical mode, global axes"))
     call self%file%write(group//"/warping", point%mode(7, :), &
       about_t("L-1", "node", "warping coordinate of the critical mode"))
+    call self%drawing%add_critical(point%mode)
     call self%file%flush(error)
   end subroutine keep_critical
 
@@ -336,7 +337,7 @@ contains
     type(error_t), allocatable, intent(out) :: error
 
     call self%table%finish(self%file)
-    call self%drawing%write_pending(self%file)
+    call self%drawing%end_analysis(self%file, self%number)
     call self%restart%finish(self%file)
     if (complete) call self%file%set_number(self%group, "complete", 1)
     call self%file%flush(error)

@@ -11,7 +11,7 @@ module output_tables
                   h5sselect_hyperslab_f, h5p_dataset_create_f, h5p_dataset_access_f, &
                   h5s_select_set_f, h5s_unlimited_f, h5t_native_double, &
                   h5t_native_integer, h5t_ieee_f64le, h5t_ieee_f32le, h5t_std_i32le, &
-                  h5t_std_i64le, h5t_std_u8le, h5t_native_real, h5kind_to_type, h5_integer_kind, &
+                  h5t_std_i64le, h5t_native_real, h5kind_to_type, h5_integer_kind, &
                   h5tget_size_f
   use kinds, only: wp, sp, i8
   use errors, only: fail, exit_io
@@ -52,10 +52,9 @@ module output_tables
     procedure :: start_reals
     procedure :: start_singles
     procedure :: start_longs
-    procedure :: start_bytes
-    procedure, private :: append_integer, append_bytes, append_longs, append_real, &
+    procedure, private :: append_integer, append_longs, append_real, &
       append_reals, append_real_table, append_singles, append_single_table
-    generic :: append => append_integer, append_bytes, append_longs, append_real, &
+    generic :: append => append_integer, append_longs, append_real, &
       append_reals, append_real_table, append_singles, append_single_table
     procedure :: finish
   end type table_t
@@ -122,16 +121,6 @@ contains
                about)
   end subroutine start_longs
 
-  !> A list of whole numbers from 0 to 255.
-  subroutine start_bytes(self, file, path, rows)
-    class(table_t), intent(out) :: self
-    type(hdf5_file_t), intent(inout) :: file
-    character(len=*), intent(in) :: path
-    integer(i8), intent(in) :: rows
-
-    call start(self, file, path, h5t_std_u8le, h5t_std_u8le, rows)
-  end subroutine start_bytes
-
   subroutine start(self, file, path, type, given, rows, about)
     type(table_t), intent(inout) :: self
     type(hdf5_file_t), intent(inout) :: file
@@ -186,15 +175,6 @@ contains
     buffer = value
     call append_rows(self, file, 1, c_loc(buffer))
   end subroutine append_integer
-
-  !> Rows of a list of bytes.
-  subroutine append_bytes(self, file, values)
-    class(table_t), intent(inout) :: self
-    type(hdf5_file_t), intent(inout) :: file
-    integer(i1), intent(in), contiguous, target :: values(:)
-
-    if (size(values) > 0) call append_rows(self, file, size(values), c_loc(values))
-  end subroutine append_bytes
 
   !> Rows of a list or, with one column, of a table.
   subroutine append_longs(self, file, values)

@@ -1,34 +1,29 @@
 !> Group /VTKHDF of the result file: the model as a mesh and how it moves, as VTK's readers
 !> (ParaView, PyVista) take it: an UnstructuredGrid of version 2.0 with steps.
 !>
-!> A step for each recorded state and for each mode. Points and displacement together are where a
-!> step's points are drawn: the points are those of the undeformed model or, for a mode about a
-!> deformed state, those of that state, written behind the former.
+!> A step for each recorded state, for each mode and, behind the states of a path, for each of its
+!> critical points. Points and displacement together are where a step's points are drawn: the points
+!> are those of the undeformed model or, for a mode about a deformed state, those of that state,
+!> written behind the former.
 module output_vtkhdf
-  use, intrinsic :: iso_fortran_env, only: i1 => int8
-  use, intrinsic :: iso_c_binding, only: c_ptr, c_loc, c_char
-  use hdf5, only: hid_t, hsize_t, size_t, h5oopen_f, h5oclose_f, h5acreate_f, h5awrite_f, &
-                  h5aclose_f, h5screate_f, h5screate_simple_f, h5sclose_f, h5tcopy_f, h5tclose_f, &
-                  h5tset_size_f, h5tset_strpad_f, h5lcreate_hard_f, h5s_scalar_f, &
-                  h5t_fortran_s1, h5t_str_nullpad_f, h5t_std_i64le, h5kind_to_type, &
-                  h5_integer_kind
+  use hdf5, only: h5lcreate_hard_f
   use kinds, only: wp, sp, i8
   use rotation, only: no_rotation
   use model_data, only: model_t, mode_analyses
-  use system_results, only: results_t
+  use system_results, only: results_t, result_modes
   use mode_results, only: modes_t
   use output_hdf5, only: hdf5_file_t, about_t
+  use output_arrays, only: write_longs, write_bytes, set_longs, set_ascii
   use output_schedule, only: in_time, has_steps, expected_steps, drawn_intervals
   use output_tables, only: table_t
   use beam_mesh, only: mesh_t, new_mesh, line_cell
-  use beam_drawing, only: posture_t, draw_motion, draw_mode, draw_forces, draw_stress
+  use beam_drawing, only: posture_t, draw_motion, draw_mode, draw_forces, draw_stress, mode_forces
   implicit none
   private
 
   public :: vtk_writer_t
 
-  character(len=*), parameter :: root = "VTKHDF", steps_group = root//"/Steps", &
-                                 type_name = "UnstructuredGrid"
+  character(len=*), parameter :: root = "VTKHDF", steps_group = root//"/Steps"
 
   !> Tables of long whole numbers, a row for each step.
   integer, parameter :: part_offsets = 1, parts = 2, point_offsets = 3, cell_offsets = 4, &
@@ -37,13 +32,21 @@ module output_vtkhdf
   !> Points gathered before they are written: files of small models would rather wait for the disk.
   integer, parameter :: gathered_points = 8192
 
+  !> The mode of a critical point, and the state recorded before it.
+  type :: critical_mode_t
+    type(posture_t) :: about
+    type(modes_t) :: mode
+  end type critical_mode_t
+
   type :: vtk_writer_t
     private
     logical :: active = .false.
     type(mesh_t) :: mesh
     type(posture_t) :: posture                  !< of the last recorded state
+    type(critical_mode_t), allocatable :: critical(:)   !< of the present analysis
     logical :: stressed = .false.               !< a section has an outline
     integer :: points = 0, cells = 0            !< of the mesh
+    integer :: joints = 0                       !< of the model, drawn or not
     integer :: steps = 0                        !< written
     integer :: pending = 0, most_pending = 1    !< gathered
     integer(i8) :: point_sets = 1               !< written: undeformed, then about which modes are
@@ -56,6 +59,8 @@ module output_vtkhdf
     procedure :: add_state
     procedure :: add_modes
     procedure :: add_drawn
+    procedure :: add_critical
+    procedure :: end_analysis
     procedure :: write_pending
   end type vtk_writer_t
 
@@ -71,6 +76,7 @@ contains
     call new_mesh(model, self%mesh)
     self%active = size(self%mesh%kind) > 0
     if (.not. self%active) return
+    self%joints = size(model%joint)
     call make_room(self, size(model%node))
     steps = drawn_steps(model)
     call write_head(file)
@@ -134,10 +140,6 @@ contains
   !> The group and its attributes: the type is plain ASCII, the version long whole numbers.
   subroutine write_head(file)
     type(hdf5_file_t), intent(inout) :: file
-    integer(i8), target :: version(2)
-    character(kind=c_char), target :: name(len(type_name))
-    integer(hid_t) :: object, space, type
-    integer :: status, i
 
     call file%group(root)
     call file%group(steps_group)
@@ -146,77 +148,26 @@ contains
     call file%group(steps_group//"/PointDataOffsets")
     call file%group(steps_group//"/CellDataOffsets")
     call file%set_number(steps_group, "NSteps", 0)
-    if (allocated(file%failure)) return
-    version = [2, 0]
-    name = [(type_name(i:i), i=1, len(type_name))]
-    call h5oopen_f(file%id, root, object, status)
-    call file%check(status, "h5oopen_f")
-    call h5screate_simple_f(1, [2_hsize_t], space, status)
-    call write_attribute(file, object, "Version", h5t_std_i64le, &
-                         h5kind_to_type(i8, h5_integer_kind), space, c_loc(version))
-    call h5tcopy_f(h5t_fortran_s1, type, status)
-    call h5tset_size_f(type, len(type_name, size_t), status)
-    call h5tset_strpad_f(type, h5t_str_nullpad_f, status)
-    call h5screate_f(h5s_scalar_f, space, status)
-    call write_attribute(file, object, "Type", type, type, space, c_loc(name))
-    call h5tclose_f(type, status)
-    call h5oclose_f(object, status)
+    call set_longs(file, root, "Version", [2, 0])
+    call set_ascii(file, root, "Type", "UnstructuredGrid")
   end subroutine write_head
-
-  subroutine write_attribute(file, object, name, stored, given, space, values)
-    type(hdf5_file_t), intent(inout) :: file
-    integer(hid_t), intent(in) :: object, stored, given, space
-    character(len=*), intent(in) :: name
-    type(c_ptr), intent(in) :: values
-    integer(hid_t) :: attribute
-    integer :: status
-
-    call h5acreate_f(object, name, stored, space, attribute, status)
-    call file%check(status, "h5acreate_f")
-    call h5sclose_f(space, status)
-    if (allocated(file%failure)) return
-    call h5awrite_f(attribute, given, values, status)
-    call file%check(status, "h5awrite_f")
-    call h5aclose_f(attribute, status)
-  end subroutine write_attribute
 
   subroutine write_mesh(self, file)
     type(vtk_writer_t), intent(inout) :: self
     type(hdf5_file_t), intent(inout) :: file
 
     associate (mesh => self%mesh)
-      call write_long(file, "NumberOfPoints", [size(mesh%position, 2)])
-      call write_long(file, "NumberOfCells", [size(mesh%kind)])
-      call write_long(file, "NumberOfConnectivityIds", [size(mesh%corners)])
-      call write_long(file, "Connectivity", mesh%corners)
-      call write_long(file, "Offsets", mesh%offset)
-      call write_types(file, mesh%kind)
+      call write_longs(file, root//"/NumberOfPoints", [size(mesh%position, 2)])
+      call write_longs(file, root//"/NumberOfCells", [size(mesh%kind)])
+      call write_longs(file, root//"/NumberOfConnectivityIds", [size(mesh%corners)])
+      call write_longs(file, root//"/Connectivity", mesh%corners)
+      call write_longs(file, root//"/Offsets", mesh%offset)
+      call write_bytes(file, root//"/Types", mesh%kind)
       call self%point_table%start_reals(file, root//"/Points", size(mesh%position, 2, i8), &
         about_t("L", "point; X Y Z", "positions of the undeformed model"), 3)
       call self%point_table%append(file, mesh%position)
     end associate
   end subroutine write_mesh
-
-  subroutine write_long(file, name, values)
-    type(hdf5_file_t), intent(inout) :: file
-    character(len=*), intent(in) :: name
-    integer, intent(in) :: values(:)
-    type(table_t) :: table
-
-    call table%start_longs(file, root//"/"//name, size(values, kind=i8))
-    call table%append(file, int(values, i8))
-    call table%finish(file)
-  end subroutine write_long
-
-  subroutine write_types(file, kind)
-    type(hdf5_file_t), intent(inout) :: file
-    integer, intent(in) :: kind(:)
-    type(table_t) :: table
-
-    call table%start_bytes(file, root//"/Types", size(kind, kind=i8))
-    call table%append(file, int(kind, i1))
-    call table%finish(file)
-  end subroutine write_types
 
   subroutine start_fields(self, file, steps)
     type(vtk_writer_t), intent(inout) :: self
@@ -230,10 +181,10 @@ contains
         about_t("1", "step*point; X Y Z", "rotation vector of the section in radians"), 3)
       if (self%stressed) call self%stress_table%start_singles(file, &
         root//"/PointData/axial_stress", points, about_t("FL-2", "step*point", &
-        "from section forces linear along the beam; 0 in modes"))
+        "from section forces linear along the beam; of modes too"))
       call self%force_table%start_singles(file, root//"/CellData/section_force", cells, &
         about_t("F F F FL FL FL FL2", "step*cell; N Vy Vz T My Mz B", &
-                "linear along the beam; 0 in modes"), 7)
+                "linear along the beam; of modes to first order, of critical points 0"), 7)
     end associate
   end subroutine start_fields
 
@@ -246,8 +197,8 @@ contains
     call self%values%start_reals(file, steps_group//"/Values", steps, &
       about_t("1", "step", "number of the step, from 1"))
     call self%origin_table%start_longs(file, steps_group//"/Origin", steps, &
-      about_t("1", "step; analysis row", "number of the group in /analysis, and of the state or"// &
-              " mode in it, from 0"), 2)
+      about_t("1", "step; analysis row", "number of the group in /analysis; of the state or"// &
+              " mode in it, from 0; -1, -2, ... for critical/0001, ..."), 2)
     call start_long(self, file, part_offsets, "PartOffsets", steps)
     call start_long(self, file, parts, "NumberOfParts", steps)
     call start_long(self, file, point_offsets, "PointOffsets", steps)
@@ -308,20 +259,73 @@ contains
     type(hdf5_file_t), intent(inout) :: file
     integer, intent(in) :: number
     type(modes_t), intent(in) :: modes
+
+    if (self%active .and. modes%modes > 0) call draw_modes(self, file, number, 0, modes)
+  end subroutine add_modes
+
+  !> Keep a critical point of the path, which is drawn behind its states: who plays them wants to
+  !> see no mode between them.
+  subroutine add_critical(self, mode)
+    class(vtk_writer_t), intent(inout) :: self
+    real(wp), intent(in) :: mode(:, :)   !< (7, nodes) X Y Z RX RY RZ W
+    type(critical_mode_t) :: point
+    integer :: nodes
+
+    if (.not. self%active) return
+    nodes = size(mode, 2)
+    point%about = self%posture
+    point%mode%modes = 1
+    point%mode%displacement = reshape(mode(1:3, :), [3, nodes, 1])
+    point%mode%rotation = reshape(mode(4:6, :), [3, nodes, 1])
+    point%mode%warping = reshape(mode(7, :), [nodes, 1])
+    allocate (point%mode%stress(result_modes, size(self%mesh%beam), 1))
+    point%mode%stress = 0
+    if (.not. allocated(self%critical)) allocate (self%critical(0))
+    self%critical = [self%critical, point]
+  end subroutine add_critical
+
+  !> Draw the critical points of analysis `number`, write what was gathered.
+  subroutine end_analysis(self, file, number)
+    class(vtk_writer_t), intent(inout) :: self
+    type(hdf5_file_t), intent(inout) :: file
+    integer, intent(in) :: number
+    type(posture_t) :: last
+    integer :: i
+
+    call self%write_pending(file)
+    if (.not. allocated(self%critical)) return
+    last = self%posture
+    do i = 1, size(self%critical)
+      self%posture = self%critical(i)%about
+      call draw_modes(self, file, number, -i, self%critical(i)%mode)
+    end do
+    self%posture = last
+    deallocate (self%critical)
+  end subroutine end_analysis
+
+  !> Modes about the present posture; the first is row `first` of its analysis.
+  subroutine draw_modes(self, file, number, first, modes)
+    type(vtk_writer_t), intent(inout) :: self
+    type(hdf5_file_t), intent(inout) :: file
+    integer, intent(in) :: number, first
+    type(modes_t), intent(in) :: modes
+    real(wp), dimension(7, size(self%mesh%beam)) :: force_p, force_q
+    real(wp) :: no_stress(1, self%joints)
     integer(i8) :: set
     integer :: i
 
-    if (.not. self%active .or. modes%modes == 0) return
+    no_stress = 0
     call add_points(self, file, set)
-    self%stress = 0
-    self%force = 0
     do i = 1, modes%modes
       call draw_mode(self%mesh, self%posture, modes%displacement(:, :, i), &
                      modes%rotation(:, :, i), modes%warping(:, i), self%motion, self%turn)
-      call add_step(self, file, number, i - 1, set)
+      call mode_forces(self%mesh, modes%stress(:, :, i), force_p, force_q)
+      call draw_forces(self%mesh, force_p, force_q, no_stress, self%force)
+      if (self%stressed) call draw_stress(self%mesh, force_p, force_q, no_stress, self%stress)
+      call add_step(self, file, number, first + i - 1, set)
     end do
     call write_pending(self, file)
-  end subroutine add_modes
+  end subroutine draw_modes
 
   !> A step that was drawn for another file of the same model. `points`: those of the steps from
   !> here on about set number `set`, if that is new; none else.

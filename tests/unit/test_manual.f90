@@ -7,7 +7,7 @@ module test_manual
   use deck_handler, only: keyword_t
   use deck_keywords, only: keywords
   use deck_reader, only: read_deck_text
-  use program_runs, only: outcome_t, run_shell
+  use program_runs, only: outcome_t, run_shell, run_spar, make_file, scratch
   implicit none
   private
 
@@ -36,6 +36,8 @@ contains
     call run("manual: docs/manual.md is up to date", up_to_date)
     call run("manual: every keyword has help and an example of itself", complete)
     call run("manual: every example is read without errors", sound)
+    call run("manual: every example is run or, without an analysis, checked", solved)
+    call run("manual: every keyword stands in a deck of the tests", used)
   end subroutine run_manual_tests
 
   subroutine up_to_date()
@@ -91,15 +93,94 @@ contains
     type(model_t) :: model
     type(setting_t) :: none(0)
     character(len=:), allocatable :: deck
+
+    deck = whole_deck(row)
+    call read_deck_text("decks/example.deck", deck, none, model, report)
+  end subroutine read_example
+
+  !> All examples as decks of their own. Some are mechanisms, for which STATIC would not do.
+  subroutine solved()
+    type(keyword_t), allocatable :: table(:)
+    type(outcome_t) :: outcome
+    character(len=:), allocatable :: deck
     integer :: i
 
-    deck = surroundings(trim(row%name))
-    deck = deck//trim(row%example)
+    allocate (table, source=keywords())
+    call run_shell("cp decks/sections.deck "//scratch("sections.deck"), outcome)
+    do i = 1, size(table)
+      deck = whole_deck(table(i))
+      call make_file(scratch("example.deck"), deck)
+      if (has_analysis(table, deck)) then
+        call run_spar("run "//scratch("example.deck")//" --quiet -o "//scratch("example.h5"), &
+                      outcome)
+      else
+        call run_spar("check "//scratch("example.deck"), outcome)
+        if (index(outcome%errors, "free motion") > 0) outcome%status = 0
+      end if
+      call expect(outcome%status == 0, trim(table(i)%name)//" example runs"//newline// &
+                  outcome%errors//newline//deck)
+    end do
+  end subroutine solved
+
+  !> In decks/ or tests/cases, wrong ones apart, or in a deck within a test.
+  subroutine used()
+    type(keyword_t), allocatable :: table(:)
+    type(outcome_t) :: outcome
+    character(len=:), allocatable :: word, cards
+    integer :: i
+
+    call run_shell("{ cat decks/*.deck $(ls tests/cases/*/*.deck | grep -v /wrong/);"// &
+      " ls tests/unit/*.f90 | grep -v test_manual |"// &
+      " xargs grep -ho '[""|][A-Z][A-Z]*[^""|]*' | cut -c 2-; } | sed 's/#.*//' |"// &
+      " awk '{ print $1; print $1, $2; print $1, $3 }' | sort -u", outcome)
+    cards = newline//outcome%output
+    allocate (table, source=keywords())
+    do i = 1, size(table)
+      word = trim(table(i)%name)//variant(table(i)%forms)
+      call expect(index(cards, newline//word//newline) > 0, word//" stands in a deck of the tests")
+    end do
+  end subroutine used
+
+  !> The word that tells one variant of a keyword from others: it stands first or behind a name.
+  pure function variant(forms) result(word)
+    character(len=*), intent(in) :: forms
+    character(len=:), allocatable :: word
+    integer :: i, at, last
+
+    at = 1
+    do i = 1, 2
+      last = index(forms(at:)//" ", " ") + at - 2
+      word = " "//forms(at:last)
+      if (index(word, ":") == 0 .and. word /= "") return
+      at = min(last + 2, len(forms))
+    end do
+    word = ""
+  end function variant
+
+  !> Whether a card of the deck asks for an analysis.
+  pure logical function has_analysis(table, deck)
+    type(keyword_t), intent(in) :: table(:)
+    character(len=*), intent(in) :: deck
+    integer :: i
+
+    has_analysis = .false.
+    do i = 1, size(table)
+      if (table(i)%stage /= "analysis") cycle
+      has_analysis = has_analysis .or. index(newline//deck, newline//trim(table(i)%name)) > 0
+    end do
+  end function has_analysis
+
+  !> An example with what it needs around it.
+  pure function whole_deck(row) result(deck)
+    type(keyword_t), intent(in) :: row
+    character(len=:), allocatable :: deck
+    integer :: i
+
+    deck = surroundings(trim(row%name))//trim(row%example)
     do i = 1, len(deck)
       if (deck(i:i) == "|") deck(i:i) = newline
     end do
-    call read_deck_text("decks/example.deck", deck, none, model, report)
-  end subroutine read_example
+  end function whole_deck
 
   !> What an example needs to be a whole deck.
   pure function surroundings(name) result(cards)

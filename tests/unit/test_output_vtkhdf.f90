@@ -24,6 +24,8 @@ contains
     call run("vtkhdf: the rate of twist is alpha and the shear", test_twist_rate)
     call run("vtkhdf: sections turn about the shear centre", test_eccentric)
     call run("vtkhdf: modes", test_modes)
+    call run("vtkhdf: stress of modes", test_mode_stress)
+    call run("vtkhdf: modes of critical points", test_critical)
     call run("vtkhdf: --no-vtk", test_without)
   end subroutine run_output_vtkhdf_tests
 
@@ -356,6 +358,69 @@ contains
     u = motion(i + 3*n - 2:i + 3*n)
     call expect_close(u, mode(4:6), 1.0e-10_wp, "the tip in a mode of the deformed state")
   end subroutine test_modes
+
+  !> Euler's column in shear-rigid bending about the weak axis: with the amplitude 1 the moment in
+  !> the middle is E I (pi/L)**2, the stress E y (pi/L)**2. The curvature of the cubics with the
+  !> right nodal values is larger by (pi/n)**2/12 and has an error of fourth order besides.
+  subroutine test_mode_stress()
+    character(len=:), allocatable :: path
+    real(wp), allocatable :: stress(:), force(:)
+    integer, allocatable :: extents(:), corners(:)
+    integer, parameter :: n = 16, points = 4*4*n
+    real(wp), parameter :: e = 1000.0_wp, length = 80.0_wp, width = 1.0_wp, height = 2.0_wp
+    real(wp) :: wanted, interpolated
+
+    call make_file(scratch("euler.deck"), "MATERIAL m E 1000 G 400"//new_line("a")// &
+      "SECTION s RECT B 1 H 2"//new_line("a")//"NODE 1 0 0 0"//new_line("a")// &
+      "NODE 2 80 0 0"//new_line("a")//"BEAMW 1 1 2 0 1 0 SECTION s MATERIAL m SHEAR OFF"// &
+      " DIVIDE 16"//new_line("a")//"FIX 1 X Y Z RX"//new_line("a")//"FIX 2 Y Z RX"// &
+      new_line("a")//"XF 2 -1 0 0"//new_line("a")//"BUCKLING MODES 1")
+    call solve(scratch("euler.deck"), "euler.h5", path)
+    call get_reals(path, "VTKHDF/PointData/axial_stress", stress, extents)
+    call expect(size(stress) >= points, "a stress at all points")
+    if (size(stress) < points) return
+    wanted = e*width/2*(pi/length)**2
+    interpolated = wanted*(1 + (pi/n)**2/12)
+    call expect_close(maxval(abs(stress(:points))), interpolated, 0.05_wp*(interpolated - wanted), &
+                      "stress in the middle")
+    associate (middle => stress(points/2 - 3:points/2))
+      call expect_close(sum(middle), 0.0_wp, 1.0e-5_wp*wanted, "bending alone")
+    end associate
+    call expect_close(maxval(abs(stress(:4))), 0.0_wp, 0.01_wp*wanted, "no moment at the end")
+    call get_reals(path, "VTKHDF/CellData/section_force", force, extents)
+    call get_integers(path, "VTKHDF/Types", corners, extents)
+    call expect_close(maxval(abs(force(6:7*size(corners):7))), &
+                      interpolated*height*width**2/6, 0.01_wp*wanted, "largest Mz of a cell")
+  end subroutine test_mode_stress
+
+  !> Lateral-torsional buckling along a path: the critical mode stands behind all states, about the
+  !> state before it.
+  subroutine test_critical()
+    character(len=:), allocatable :: path
+    integer, allocatable :: origin(:), offsets(:), step(:), extents(:)
+    real(wp), allocatable :: points(:), motion(:), mode(:)
+    integer, parameter :: n = 3*8*5, states = 9
+    integer :: before
+
+    call solve("tests/cases/path/lateral.deck", "critical.h5", path)
+    call get_integers(path, steps//"Origin", origin, extents)
+    call get_integers(path, steps//"PointOffsets", offsets, extents)
+    call get_reals(path, "VTKHDF/Points", points, extents)
+    call get_reals(path, "VTKHDF/PointData/displacement", motion, extents)
+    call get_reals(path, "analysis/01_static/critical/0001/displacement", mode, extents)
+    call get_numbers(path, "analysis/01_static/critical/0001", "step", step)
+    call expect(size(origin) == 2*(states + 1), "nine states and a critical point")
+    call expect(size(points) == 2*n .and. size(motion) == (states + 1)*n, "two sets of points")
+    if (size(motion) /= (states + 1)*n .or. size(points) /= 2*n .or. size(step) /= 1) return
+    call expect(all(origin(2*states + 1:) == [1, -1]), "the critical point comes last")
+    call expect(all(offsets == [(0, before=1, states), n/3]), "about another state")
+    before = (step(1) - 2)*n
+    call expect_close(points(n + 1:), points(:n) + motion(before + 1:before + n), 1.0e-14_wp, &
+                      "the one recorded before it")
+    call expect_close(motion(states*n + 58:states*n + 60), mode(16:18), 1.0e-8_wp*abs(mode(17)), &
+                      "the motion of the node in the middle")
+    call expect_close(abs(mode(17)), maxval(abs(mode)), 0.0_wp, "largest there, sideways")
+  end subroutine test_critical
 
   subroutine test_without()
     character(len=:), allocatable :: path

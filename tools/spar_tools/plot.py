@@ -1,11 +1,11 @@
-"""spar-plot: path curves, time histories, deformed frames and mode shapes of spar's results."""
+"""spar-plot: path curves, time histories, deformed frames, mode shapes, surfaces of spar's results."""
 import argparse
 import sys
 from pathlib import Path
 
 import numpy as np
 
-from . import figures
+from . import figures, surface
 from .results import IN_TIME, ResultError, Results
 from .shapes import Shapes
 
@@ -51,7 +51,29 @@ def parser():
         command.add_argument("--analysis", metavar="NAME", help="number or name (default: last)")
         command.add_argument("--unit", default="", metavar="TEXT", help="the deck's unit of length")
         command.add_argument("-o", "--output", metavar="PICTURE", help=".png, .pdf or .svg")
+    add_surface(commands)
     return top
+
+
+def add_surface(commands):
+    """The command of spatial pictures."""
+    command = commands.add_parser("surface", help="a spatial picture, coloured by a field"
+                                                  " (needs pyvista)")
+    command.add_argument("files", nargs=1, metavar="OUT.h5")
+    command.add_argument("--analysis", metavar="NAME", help="number or name (default: last)")
+    command.add_argument("--steps", nargs="+", type=int, metavar="N",
+                         help="recorded steps or numbers of modes (default: last step, mode 1)")
+    command.add_argument("--field", choices=surface.FIELDS, default=None,
+                         help="default: axial_stress where a section has an outline")
+    command.add_argument("--scale", type=float,
+                         help="of modes: largest displacement in the picture")
+    command.add_argument("--apart", default="0,0,0", metavar="DX,DY,DZ",
+                         help="from one shape to the next")
+    command.add_argument("--view", default="60,25", metavar="AZIMUTH,ELEVATION", help="in degrees")
+    command.add_argument("--unit", default="", metavar="TEXT", help="the deck's unit of the field")
+    command.add_argument("--load-unit", default="", metavar="TEXT", help="of a unit load factor")
+    command.add_argument("--title", default="", metavar="TEXT")
+    command.add_argument("-o", "--output", metavar="PICTURE", help=".png")
 
 
 def best_plane(points):
@@ -207,17 +229,36 @@ def plot_modes(options):
     return figure
 
 
+def plot_surface(options, output):
+    """Write a spatial picture of steps or modes."""
+    with Results(options.files[0]) as results:
+        group = results.analysis(options.analysis)
+        steps = options.steps or [len(group["step"]) if "step" in group else 1]
+        labels, largest = None, None
+        if "step" not in group:
+            largest = options.scale or np.ptp(results.position, 0).max() / 8
+        elif len(steps) > 1:
+            labels = [f"{group['load_factor'][step - 1]:.3g} {options.load_unit}".strip()
+                      for step in steps]
+        surface.draw(results, group, [step - 1 for step in steps], output, field=options.field,
+                     largest=largest, apart=[float(word) for word in options.apart.split(",")],
+                     view=options.view, unit=options.unit, labels=labels, title=options.title)
+
+
 def main(arguments=None):
     """Draw what is asked for; exit status 2 with one line if it is not in the file."""
     options = parser().parse_args(arguments)
     draw = {"curve": plot_curve, "history": plot_history, "frames": plot_frames,
-            "modes": plot_modes}[options.command]
+            "modes": plot_modes}
     output = options.output or f"{Path(options.files[0]).stem}_{options.command}.png"
     try:
         for name in options.files:
             if not Path(name).is_file():
                 raise ResultError(f"there is no file {name}")
-        figures.save(draw(options), output)
+        if options.command == "surface":
+            plot_surface(options, output)
+        else:
+            figures.save(draw[options.command](options), output)
     except (ResultError, OSError, KeyError) as error:
         print(f"spar-plot: {error}", file=sys.stderr)
         return 2

@@ -1,0 +1,478 @@
+#!/usr/bin/env python3
+"""Read /VTKHDF of result files with VTK's own reader and check it against the rest of the file.
+
+    tools/check_vtk.py              run the decks of CASES and check their files
+    tools/check_vtk.py OUT.h5...    check these files
+
+Where a point has to be is worked out anew from /model and /analysis: at both ends of every beam
+the node's displacement and rotation carry the section's corners, and its warping moves them by
+-omega alpha along the beam; trusses are straight between their nodes. Of motions in time some states
+are drawn only: which is worked out from their times. The program is $SPAR_PROGRAM or build/spar. Called by `make check-vtk`,
+which installs vtk, h5py and numpy.
+"""
+import os
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+import h5py
+import numpy as np
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkCommonCore import vtkVersion
+from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline
+from vtkmodules.vtkIOHDF import vtkHDFReader
+
+ROOT = Path(__file__).resolve().parents[1]
+TOLERANCE = 1e-9         # of the model's size: VTK and HDF5 keep double precision
+SINGLE = 5e-7            # of the largest value: fields kept in single precision
+STATE, MODE = 0, 1       # kinds of steps; modes of critical points are modes
+INTERVALS = 200          # of a motion in time at most, a state each is drawn
+LINE, POLYGON, QUAD = 3, 7, 9
+
+# What it is, deck, settings, drawn states, modes.
+CASES = [
+    ("post-buckling path of a channel, modes at its end", "drawing/channel.deck", {}, 30, 3),
+    ("post-buckling path by arc length, lines", "path/channel_arc.deck", {}, None, 0),
+    ("flexural-torsional buckling modes", "drawing/column.deck", {}, 0, 3),
+    ("buckling about loaded states", "buckling/preloaded.deck", {}, 1, 4),
+    ("critical point of a path", "path/bracket.deck", {}, 8, 1),
+    ("roll-up to a full circle", "static/rollup.deck", {"angle": 0.7}, 10, 0),
+    ("spatial bend", "static/bend45.deck", {}, 6, 0),
+    ("nine kinds of sections", "../../decks/sections.deck", {}, 2, 0),
+    ("five more kinds", "drawing/shapes.deck", {}, 2, 0),
+    ("frame, two patterns", "../../decks/frame.deck", {}, 13, 0),
+    ("rigid links", "../../decks/chain.deck", {}, 4, 0),
+    ("trusses, with and without section", "drawing/braced.deck", {}, 3, 6),
+    ("motion in time, every third step drawn", "drawing/swing.deck", {}, 137, 0),
+    ("the same with steps by their error", "drawing/swing.deck", {"rule": "TOL", "value": 1e-5}, None, 0),
+    ("many lines, one piece each", "../bench/cantilever.deck", {"n": 600, "steps": 2}, 2, 0),
+]
+
+
+# --- what the file says ---------------------------------------------------------------------------
+
+def rotations(euler):
+    """Rotation matrices of Euler parameters, scalar first."""
+    e0, e1, e2, e3 = np.asarray(euler).T
+    rows = [
+        [1 - 2 * (e2**2 + e3**2), 2 * (e1 * e2 - e0 * e3), 2 * (e1 * e3 + e0 * e2)],
+        [2 * (e1 * e2 + e0 * e3), 1 - 2 * (e1**2 + e3**2), 2 * (e2 * e3 - e0 * e1)],
+        [2 * (e1 * e3 - e0 * e2), 2 * (e2 * e3 + e0 * e1), 1 - 2 * (e1**2 + e2**2)],
+    ]
+    return np.moveaxis(np.array(rows), 2, 0)
+
+
+def from_vectors(theta):
+    """Rotation matrices of rotation vectors (n, 3)."""
+    angle = np.linalg.norm(theta, axis=1)
+    half = 0.5 * np.sinc(angle / (2 * np.pi))  # sin(angle/2)/angle
+    return rotations(np.column_stack([np.cos(angle / 2), half[:, None] * theta]))
+
+
+class Model:
+    """What of /model the drawing depends on."""
+
+    def __init__(self, file):
+        self.position = file["model/nodes/position"][()]
+        elements = file["model/elements"]
+        self.node = elements["nodes"][()].reshape(-1, 2, 3)
+        self.triad = elements["triad"][()].reshape(-1, 3, 3)  # rows eX, eY, eZ
+        self.size = np.ptp(self.position, axis=0).max()
+        names = [name.strip("\0") for name in file["model/sections/name"].asstr()[()]] \
+            if "model/sections/name" in file else []
+        self.corners, self.omega, self.constants = [], [], []
+        for name, status in zip(elements["section"].asstr()[()], elements["mode_status"][()]):
+            name = name.strip("\0")
+            drawing = file.get(f"model/sections/drawings/{name.replace('/', '_')}") if name else None
+            constants = file["model/sections/constants"][names.index(name)] if name else None
+            self.constants.append(constants)
+            if drawing is None:
+                self.corners.append(np.zeros((1, 2)))
+                self.omega.append(np.zeros(1))
+            else:
+                self.corners.append(drawing["outline_principal"][()])
+                self.omega.append(corner_omega(drawing))
+            if constants is None or constants[4] == 0 or not (status == 1).any():
+                self.omega[-1] = np.zeros(len(self.corners[-1]))
+        self.read_bars(file.get("model/joints"), dict(zip(names, file["model/sections/constants"][()]))
+                       if names else {})
+
+    def read_bars(self, joints, constants):
+        """Trusses: row of /model/joints, nodes, area (0: unknown)."""
+        self.joints = 0 if joints is None else len(joints["id"])
+        kinds = [] if joints is None else [kind.strip("\0 ") for kind in joints["type"].asstr()[()]]
+        self.bar = [j for j, kind in enumerate(kinds) if kind == "TRUSS"]
+        self.bar_node = [joints["nodes"][j, [0, 2]] for j in self.bar]
+        names = [joints["section"].asstr()[j].strip("\0") for j in self.bar]
+        self.bar_area = [constants[name][0] if name else 0.0 for name in names]
+
+    def beams(self, points):
+        """Element, and the points of each of its stations, (stations, corners)."""
+        first = 0
+        stations = (points - 2 * len(self.bar)) // max(1, sum(len(c) for c in self.corners))
+        for e, corners in enumerate(self.corners):
+            n = len(corners)
+            yield e, first + np.arange(stations * n).reshape(stations, n)
+            first += stations * n
+
+    def bars(self, points):
+        """Truss, and its two points: they are the last."""
+        first = points - 2 * len(self.bar)
+        for b in range(len(self.bar)):
+            yield b, first + 2 * b + np.arange(2)
+
+
+def corner_omega(drawing):
+    """Warping coordinates of the corners of an outline."""
+    corners = len(drawing["outline_principal"])
+    if "omega" not in drawing or "plates" not in drawing:
+        return np.zeros(corners)
+    omega, plates = drawing["omega"][()], drawing["plates"][()]
+    if corners == 4 * len(plates) and (drawing["polygon"][()] > 0).sum() == corners - 4:
+        return omega[plates[:, [0, 1, 1, 0]]].ravel()  # an open section: a rectangle each wall
+    return np.resize(omega, corners)                   # a closed one: outside and inside
+
+
+class State:
+    """Where the nodes are."""
+
+    def __init__(self, model, data=None, row=0):
+        n = len(model.position)
+        if data is None:
+            self.motion, self.turn, self.warping = np.zeros((n, 3)), np.tile(np.eye(3), (n, 1, 1)), \
+                np.zeros(n)
+        else:
+            rows = slice(row * n, (row + 1) * n)
+            self.motion = data["displacement"][rows]
+            self.turn = rotations(data["euler"][rows])
+            self.warping = data["warping"][rows]
+
+    def moved(self, model, e, end):
+        """Displacement of the corners of a beam's end, and its section's axis and arms now."""
+        p, r, w = model.node[e, end]
+        arms = model.corners[e] @ model.triad[e, 1:]
+        axis, now = self.turn[r] @ model.triad[e, 0], arms @ self.turn[r].T
+        alpha = self.warping[w] if w >= 0 else 0.0
+        return self.motion[p] + now - arms - alpha * np.outer(model.omega[e], axis), axis, now
+
+
+class Mode:
+    """How the nodes move about a state."""
+
+    def __init__(self, model, data, row, about):
+        n = len(model.position)
+        rows = slice(row * n, (row + 1) * n)
+        self.motion, self.spin, self.warping = (
+            data[name][rows] for name in ("displacement", "rotation", "warping"))
+        self.about = about
+
+    def moved(self, model, e, end):
+        """Displacement of the corners of a beam's end: the differential of State.moved."""
+        p, r, w = model.node[e, end]
+        _, axis, now = self.about.moved(model, e, end)
+        alpha = self.about.warping[w] if w >= 0 else 0.0
+        rate = self.warping[w] if w >= 0 else 0.0
+        return self.motion[p] + np.cross(self.spin[r], now) - np.outer(
+            model.omega[e], rate * axis + alpha * np.cross(self.spin[r], axis))
+
+
+# --- what VTK says --------------------------------------------------------------------------------
+
+def read_steps(path):
+    """Yield time value and grid of every step, as VTK's reader gives them."""
+    reader = vtkHDFReader()
+    reader.SetFileName(str(path))
+    reader.UpdateInformation()
+    information = reader.GetOutputInformation(0)
+    for value in information.Get(vtkStreamingDemandDrivenPipeline.TIME_STEPS()) or []:
+        reader.UpdateTimeStep(value)
+        grid = reader.GetOutputDataObject(0)
+        if grid.IsA("vtkPartitionedDataSet"):
+            grid = grid.GetPartition(0)
+        yield value, grid
+
+
+def fields_of(grid):
+    """Arrays by name."""
+    return {data.GetArrayName(i): vtk_to_numpy(data.GetArray(i))
+            for data in (grid.GetPointData(), grid.GetCellData())
+            for i in range(data.GetNumberOfArrays())}
+
+
+def cells_of(grid):
+    """Points of each cell, and types."""
+    array = grid.GetCells()
+    ids, at = vtk_to_numpy(array.GetConnectivityArray()), vtk_to_numpy(array.GetOffsetsArray())
+    types = [grid.GetCellType(i) for i in range(grid.GetNumberOfCells())]
+    return [ids[a:b] for a, b in zip(at[:-1], at[1:])], types
+
+
+# --- the checks -----------------------------------------------------------------------------------
+
+class Checks:
+    """The largest deviation of each check over the steps of a file, and what it may be."""
+
+    def __init__(self):
+        self.worst = {}
+
+    def below(self, name, deviation, allowed):
+        """A deviation; NaN is beyond everything."""
+        ratio = np.max(np.abs(deviation), initial=0.0) / allowed
+        ratio = np.inf if np.isnan(ratio) else ratio
+        self.worst[name] = max(self.worst.get(name, 0.0), ratio)
+
+    def true(self, name, fact):
+        """A fact."""
+        self.worst[name] = max(self.worst.get(name, 0.0), 0.0 if fact else np.inf)
+
+
+def expected_steps(groups):
+    """(analysis, row, kind) of every state and mode that is to be drawn."""
+    wanted, start = [], 0.0
+    for number, group in enumerate(groups, 1):
+        rows = np.arange(len(group.get("step", ())))
+        if group.attrs["kind"] in ("transient", "kinematic", "inverse"):
+            rows = drawn_rows(group["time"][()], start)
+            start = group["time"][-1]
+        wanted += [(number, row, STATE) for row in rows]
+        modes = group.get("multiplier", group.get("frequency", ()))
+        wanted += [(number, row, MODE) for row in range(len(modes))]
+        wanted += [(number, -int(name), MODE) for name in group.get("critical", ())]
+    return wanted
+
+
+def drawn_rows(time, start):
+    """Rows of a motion in time that are drawn: the first of each interval, and the last."""
+    whole, steps = (time[-1] - start) / INTERVALS, np.diff(time)
+    if np.ptp(steps[:-1]) < 1e-6 * steps[0]:  # equal, but perhaps the last
+        count = np.ceil((time[-1] - start) / steps[0] - 1e-6)
+        whole = np.ceil(count / INTERVALS) * steps[0]
+    interval = np.floor((time - start) / whole + 1e-5)
+    return np.union1d(np.unique(interval, return_index=True)[1], len(time) - 1)
+
+
+def check_cells(checks, grid, points):
+    """Cells are of known types, have size, use all points, and no point twice."""
+    cells, types = cells_of(grid)
+    checks.true("cells: types", set(types) <= {LINE, POLYGON, QUAD})
+    used = np.unique(np.concatenate(cells))
+    checks.true("cells: all points are used", np.array_equal(used, np.arange(len(points))))
+    for ids, kind in zip(cells, types):
+        place = points[ids] - points[ids[0]]
+        if kind == LINE:
+            measure, count = np.linalg.norm(place[1]), len(ids) == 2
+        else:  # twice the area
+            measure = np.linalg.norm(np.cross(place[1:-1], place[2:]).sum(axis=0))
+            count = len(ids) == 4 or kind == POLYGON
+        checks.true("cells: have size", measure > 0 and count and len(set(ids)) == len(ids))
+
+
+def check_initial(checks, model, points):
+    """Sections stand evenly along the straight beams, trusses reach from node to node."""
+    for b, ids in model.bars(len(points)):
+        checks.below("initial points of trusses", points[ids] - model.position[model.bar_node[b]],
+                     TOLERANCE * model.size)
+    for e, at in model.beams(len(points)):
+        arms = model.corners[e] @ model.triad[e, 1:]
+        p, q = model.position[model.node[e, :, 0]]
+        for xi, ids in zip(np.linspace(0, 1, len(at)), at):
+            checks.below("initial points", points[ids] - (p + xi * (q - p) + arms),
+                         TOLERANCE * model.size)
+
+
+def check_motion(checks, model, motion, fields, points, initial):
+    """Points and displacements at both ends of all beams and trusses."""
+    places = points + fields["displacement"]
+    for b, ids in model.bars(len(points)):
+        nodes = model.bar_node[b]
+        base = model.position[nodes]
+        if isinstance(motion, Mode):
+            base = base + motion.about.motion[nodes]
+        checks.below("points of trusses", points[ids] - base, TOLERANCE * model.size)
+        checks.below("displacement of trusses", fields["displacement"][ids] - motion.motion[nodes],
+                     TOLERANCE * model.size)
+        checks.true("rotation of trusses", not fields["rotation"][ids].any())
+    for e, at in model.beams(len(points)):
+        for end in (0, 1):
+            wanted = motion.moved(model, e, end)
+            base = initial[at[-end]]
+            if isinstance(motion, Mode):
+                base = base + motion.about.moved(model, e, end)[0]
+                turned = None
+            else:
+                wanted, turned = wanted[0], motion.turn[model.node[e, end, 1]]
+            ids = at[-end]
+            checks.below("points", points[ids] - (base if turned is None else initial[ids]),
+                         TOLERANCE * model.size)
+            checks.below("displacement", fields["displacement"][ids] - wanted,
+                         TOLERANCE * model.size)
+            checks.below("deformed points", places[ids] - base - wanted, TOLERANCE * model.size)
+            rotation = fields["rotation"][ids].astype(float)
+            if turned is None:
+                spin = motion.spin[model.node[e, end, 1]]
+                checks.below("spin of modes", rotation - spin, SINGLE * np.abs(motion.spin).max())
+            else:
+                checks.below("rotation", from_vectors(rotation) - turned, 4 * SINGLE)
+
+
+def end_forces(model, data, row, mode):
+    """Section forces at both ends of all beams, those of modes to first order (docs/theory.md)."""
+    n = len(model.node)
+    rows = slice(row * n, (row + 1) * n)
+    if not mode:
+        return data["elements/section_force_p"][rows], data["elements/section_force_q"][rows]
+    s = data["modes/elements/stress"][rows].T
+    p, q = model.position[model.node[:, :, 0]].transpose(1, 0, 2)
+    length = np.linalg.norm(q - p, axis=1)
+    shared = [s[0], s[4] - s[5], s[3] - s[2], length * s[1]]
+    return (np.array([*shared, length * s[2], length * s[4], -length**2 * s[6]]).T,
+            np.array([*shared, length * s[3], length * s[5], length**2 * s[7]]).T)
+
+
+def check_forces(checks, model, ends, grid, fields):
+    """Section forces in the middle of the cells, stresses at the ends of the beams."""
+    at_p, at_q = ends
+    largest = np.maximum(np.abs(ends).max(axis=(0, 1)), 1e-30)
+    owner, middle = np.empty(grid.GetNumberOfPoints(), int), np.empty(grid.GetNumberOfPoints())
+    stress = fields.get("axial_stress")
+    scale = max(np.abs(stress).max(), 1e-300) if stress is not None else 1.0
+    for e, at in model.beams(grid.GetNumberOfPoints()):
+        owner[at], middle[at] = e, np.linspace(0, 1, len(at))[:, None]
+        c = model.constants[e]
+        if stress is None or c is None:
+            continue
+        for ids, (force_n, _, _, _, m_y, m_z, b) in zip(at[[0, -1]], (at_p[e], at_q[e])):
+            y, z = model.corners[e].T
+            wanted = force_n / c[0] + m_y * z / c[1] - m_z * y / c[2]
+            if c[4] > 0:
+                wanted = wanted - b * model.omega[e] / c[4]
+            checks.below("axial stress", stress[ids] - wanted, SINGLE * scale)
+    beams = grid.GetNumberOfCells() - len(model.bar)
+    for ids, force in zip(cells_of(grid)[0][:beams], fields["section_force"]):
+        e, xi = owner[ids[0]], middle[ids].mean()
+        checks.true("cells: of one beam", (owner[ids] == e).all())
+        checks.below("section forces", (force - (1 - xi) * at_p[e] - xi * at_q[e]) / largest, SINGLE)
+
+
+def check_bars(checks, model, normal, grid, fields):
+    """Forces and stresses of trusses from the normal forces of all joints."""
+    cells, forces = cells_of(grid)[0], fields["section_force"]
+    largest = max(np.abs(normal).max(initial=0.0), 1e-30)
+    for b, ids in model.bars(grid.GetNumberOfPoints()):
+        at = b - len(model.bar)
+        checks.true("cells of trusses", list(cells[at]) == list(ids))
+        wanted = np.append(normal[model.bar[b]], np.zeros(6))
+        checks.below("forces of trusses", forces[at] - wanted, SINGLE * largest)
+        if "axial_stress" in fields:
+            area = model.bar_area[b]
+            stress = normal[model.bar[b]] / area if area > 0 else 0.0
+            checks.below("stresses of trusses", fields["axial_stress"][ids] - stress,
+                         SINGLE * max(abs(stress), 1e-30))
+
+
+def check_file(path):
+    """Checks of a file, and how many states and modes it holds."""
+    checks = Checks()
+    with h5py.File(path) as file:
+        model = Model(file)
+        groups = [file["analysis"][name] for name in sorted(file["analysis"])]
+        origin = [tuple(row) for row in file["VTKHDF/Steps/Origin"][()]]
+        wanted = expected_steps(groups)
+        state, initial, values = State(model), None, []
+        for k, (value, grid) in enumerate(read_steps(path)):
+            values.append(value)
+            number, row = origin[k][:2]
+            group = groups[number - 1]
+            points = vtk_to_numpy(grid.GetPoints().GetData())
+            fields = fields_of(grid)
+            if initial is None:
+                initial = file["VTKHDF/Points"][:len(points)]
+                check_initial(checks, model, initial)
+                check_cells(checks, grid, initial)
+            checks.true("number of points and cells", len(points) == len(initial)
+                        and grid.GetNumberOfCells() == file["VTKHDF/NumberOfCells"][0])
+            for name, field in fields.items():
+                checks.true(f"{name} is finite", np.isfinite(field).all())
+            if row < 0:
+                point = group[f"critical/{-row:04}"]
+                last = point.attrs["step"] - 2
+                about = State(model, group["nodes"], last) if last >= 0 else State(model)
+                motion = Mode(model, point, 0, about)
+            elif "modes" in group:
+                motion = Mode(model, group["modes/nodes"], row, state)
+            else:
+                state = motion = State(model, group["nodes"], row)
+            if row >= 0:
+                ends = end_forces(model, group, row, motion is not state)
+                check_forces(checks, model, ends, grid, fields)
+                normal = np.zeros(model.joints)  # modes have none
+                if motion is state and model.joints:
+                    normal = group["joints/stress"][row * model.joints:][:model.joints, 0]
+                check_bars(checks, model, normal, grid, fields)
+            check_motion(checks, model, motion, fields, points, initial)
+        checks.true("all states and modes are there, once",
+                    sorted(origin) == sorted(w[:2] for w in wanted))
+        checks.true("steps counted from 1", values == list(range(1, len(wanted) + 1))
+                    and file["VTKHDF/Steps"].attrs["NSteps"] == len(wanted))
+    modes = sum(kind == MODE for _, _, kind in wanted)
+    return checks, len(wanted) - modes, modes
+
+
+# --- running --------------------------------------------------------------------------------------
+
+class Count:
+    """Passed and failed checks, with a line for each failure."""
+
+    def __init__(self):
+        self.passed = self.failed = 0
+
+    def add(self, what, name, ratio):
+        """A check passes if its deviation is at most what is allowed."""
+        if ratio <= 1:
+            self.passed += 1
+        else:
+            self.failed += 1
+            print(f"FAILED {what}: {name}, {ratio:.3g} times what is allowed")
+
+
+def check(path, what, count):
+    """Check a file and print a line of it."""
+    checks, states, modes = check_file(path)
+    for name, ratio in checks.worst.items():
+        count.add(what, name, ratio)
+    print(f"{what}: {states} states, {modes} modes, {len(checks.worst)} checks, points within"
+          f" {TOLERANCE * checks.worst.get('deformed points', np.inf):.1e} of the model's size")
+    return states, modes
+
+
+def run_cases(count):
+    """Run the decks and check their files."""
+    program = os.environ.get("SPAR_PROGRAM", str(ROOT / "build/spar"))
+    with tempfile.TemporaryDirectory() as folder:
+        for what, deck, settings, states, modes in CASES:
+            out = Path(folder) / "out.h5"
+            words = [word for name, value in settings.items() for word in ("-D", f"{name}={value}")]
+            subprocess.run([program, "run", str(ROOT / "tests/cases" / deck), "--quiet", "-o",
+                            str(out), *words], check=True)
+            found = check(out, what, count)
+            count.add(what, f"{states} states and {modes} modes",
+                      0 if found[0] == states or states is None and found[0] > 10 else np.inf)
+            count.add(what, f"{modes} modes", 0 if found[1] == modes else np.inf)
+
+
+def main():
+    """Check files or cases."""
+    count = Count()
+    if len(sys.argv) > 1:
+        for name in sys.argv[1:]:
+            check(name, name, count)
+    else:
+        run_cases(count)
+    print(f"VTK {vtkVersion.GetVTKVersion()}")
+    print(f"{count.passed} passed, {count.failed} failed")
+    sys.exit(count.failed > 0)
+
+
+if __name__ == "__main__":
+    main()
