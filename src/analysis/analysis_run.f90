@@ -3,7 +3,7 @@ module analysis_run
   use kinds, only: wp
   use errors, only: error_t, fail, exit_deck, exit_io
   use text, only: to_text
-  use model_data, only: model_t, analysis_t, control_arc, analysis_static, analysis_buckling, &
+  use model_data, only: model_t, analysis_t, control_arc, static_analyses, analysis_buckling, &
                         analysis_eigen, analysis_transient, analysis_compliance, analysis_names
   use linalg_solver, only: solver_t
   use system_data, only: system_t
@@ -69,9 +69,20 @@ contains
                         system%pattern%symmetric, error)
     if (allocated(error) .or. .not. needs_structure(model)) return
     call refuse_free_motion(model, system, solver, iterate, error)
-    if (any(model%analysis%kind /= analysis_static)) return
+    if (.not. all_static(model)) return
     deallocate (system%pattern%row, system%pattern%column)  ! the solver has its own
   end subroutine set_up
+
+  !> Whether all analyses follow equilibria.
+  pure logical function all_static(model)
+    type(model_t), intent(in) :: model
+    integer :: i
+
+    all_static = .true.
+    do i = 1, size(model%analysis)
+      all_static = all_static .and. any(model%analysis(i)%kind == static_analyses)
+    end do
+  end function all_static
 
   !> Whether an analysis needs a structure: EIGEN and motions in time do not.
   pure logical function needs_structure(model)
@@ -81,7 +92,7 @@ contains
     needs_structure = .false.
     do i = 1, size(model%analysis)
       needs_structure = needs_structure .or. any(model%analysis(i)%kind == &
-        [analysis_static, analysis_buckling, analysis_compliance])
+        [static_analyses, analysis_buckling, analysis_compliance])
     end do
   end function needs_structure
 
@@ -147,7 +158,7 @@ contains
       if (analysis%pattern > 0) system%timed(analysis%pattern) = .true.
       call run_transient(model, system, analysis, course%time, level, iterate, course%flow, &
                          recorder, error)
-    case (analysis_static)
+    case (static_analyses(1), static_analyses(2))
       if (allocated(course%flow)) deallocate (course%flow)
       if (analysis%control == control_arc) then
         call run_arc(model, system, solver, analysis, level, iterate, recorder, error)
