@@ -26,6 +26,9 @@ module linalg_quadratic
   !> An eigenvalue this small against the shift is zero: double ones split that far.
   real(wp), parameter :: zero = 1.0e-4_wp
 
+  !> Free motions are others if they differ so much.
+  real(wp), parameter :: independent = 1.0e-3_wp
+
   !> Far more than round-off, far less than a gap.
   real(wp), parameter :: tie = 1.0e-8_wp
 
@@ -42,7 +45,7 @@ module linalg_quadratic
   end type quadratic_t
 
   !> Eigenvalues in the order of their distance from zero; of conjugate pairs one, with positive
-  !> imaginary part; of double zeros one.
+  !> imaginary part; of zeros those that move differently: two of a free motion are one.
   type :: spectrum_t
     integer :: found = 0
     complex(wp), allocatable :: lambda(:)        !< [1/T]
@@ -137,7 +140,7 @@ contains
     type(error_t), allocatable, intent(out) :: error
     complex(wp) :: lambda(size(mu)), x(problem%equations)
     real(wp) :: distance(size(mu)), change
-    integer :: i, k, zeros
+    integer :: i, k
     type(entries_t) :: m, g
 
     call compress(problem%row, problem%column, problem%m, problem%coordinates, m)
@@ -148,14 +151,13 @@ contains
     distance = abs(lambda) - tie*real(lambda)  ! of equal ones those that grow come first
     allocate (spectrum%lambda(min(wanted, size(mu))))
     allocate (spectrum%vector(problem%equations, size(spectrum%lambda)))
-    zeros = 0
     do i = 1, size(mu)
       if (spectrum%found == size(spectrum%lambda)) return
       k = minloc(distance, 1)
       distance(k) = huge(1.0_wp)
-      if (.not. abs(lambda(k)) > 0 .and. .not. abs(aimag(mu(k))) > 0) then
-        zeros = zeros + 1
-        if (modulo(zeros, 2) == 0) cycle
+      if (.not. abs(lambda(k)) > 0) then
+        if (depends(vector(:, k), spectrum%vector(companion%active, :spectrum%found), &
+                    companion%weight)) cycle
       end if
       call complete_vector(solver, companion, m, g, mu(k), vector(:, k), x, change, error)
       if (allocated(error)) return
@@ -165,6 +167,25 @@ contains
       spectrum%vector(:, spectrum%found) = x
     end do
   end subroutine keep_nearest
+
+  !> Whether a vector is, all but a thousandth, a sum of others.
+  pure logical function depends(x, others, weight)
+    complex(wp), intent(in) :: x(:), others(:, :)
+    real(wp), intent(in) :: weight(:)
+    complex(wp) :: q(size(x), size(others, 2) + 1)
+    integer :: i, j
+
+    q(:, size(q, 2)) = weight*x
+    do i = 1, size(q, 2)
+      if (i < size(q, 2)) q(:, i) = weight*others(:, i)
+      q(:, i) = q(:, i)/norm2(abs(q(:, i)))
+      do j = 1, i - 1
+        q(:, i) = q(:, i) - dot_product(q(:, j), q(:, i))*q(:, j)
+      end do
+      if (i < size(q, 2)) q(:, i) = q(:, i)/norm2(abs(q(:, i)))
+    end do
+    depends = norm2(abs(q(:, size(q, 2)))) <= independent
+  end function depends
 
   !> The coordinates that M and G do not know, and multipliers: x = -K^-1 (mu^2 M + mu G) x; what
   !> is known is kept. `change` is what that differs by, relatively.
