@@ -1,5 +1,5 @@
 !> EIGEN: frequencies and modes of small vibrations about the present state,
-!> (K + G) x = omega**2 M x (theory 8).
+!> (K + G) x = omega**2 M x (theory 8); complex ones as `complex_modes` finds them.
 !>
 !> A state that nothing holds, or that is unstable, has frequencies that are zero or imaginary;
 !> they are found by a shift below all of them.
@@ -11,15 +11,19 @@ module analysis_eigen
   use linalg_solver, only: solver_t
   use linalg_eigen, only: pencil_t, pairs_t, estimate_theta
   use linalg_spectrum, only: find_spectrum, count_between
+  use nodal_state, only: node_coordinates
   use system_data, only: system_t
   use system_assembly, only: iterate_t, assemble
   use system_blocks, only: half_t, new_half, fold
   use system_geometric, only: is_conservative
+  use system_linear, only: matrices_t, linearize
+  use system_loads, only: amplitudes
+  use system_rotation, only: spin_at
   use system_inertia, only: masses_t, new_masses, assemble_mass, mass_product, mass_centre, &
                             rigid_motion
   use system_names, only: coordinate_name
-  use mode_results, only: modes_t, new_modes, add_mode, by_coordinate, unit_factor, &
-                          symmetric_part
+  use complex_modes, only: find_complex_modes, say_complex
+  use mode_results, only: modes_t, new_modes, add_mode, by_coordinate, unit_factor
   use recorder, only: recorder_t
   implicit none
   private
@@ -46,11 +50,10 @@ contains
     type(iterate_t), intent(inout) :: iterate
     class(recorder_t), intent(inout) :: recorder
     type(error_t), allocatable, intent(out) :: error
-    type(solver_t) :: own
-    type(half_t) :: half
-    type(pencil_t) :: pencil
     type(masses_t) :: masses
-    real(wp) :: mass(size(system%pattern%row))
+    type(matrices_t) :: matrices
+    type(modes_t) :: modes
+    logical :: complex
 
     if (system%unknowns == 0) then
       call fail(error, exit_deck, "nothing can move: every coordinate is fixed")
@@ -63,6 +66,79 @@ contains
                 "or XM to a node")
       return
     end if
+    complex = is_complex(system, analysis, level, iterate)
+    if (complex .or. analysis%matrices) then
+      call linearize(model, system, masses, level, iterate, analysis%damped, matrices)
+    end if
+    if (complex) then
+      call find_complex_modes(model, system, masses, matrices, analysis, iterate, modes, error)
+    else
+      call find_real_modes(model, system, solver, masses, analysis, iterate, modes, error)
+    end if
+    if (allocated(error)) return
+    if (analysis%damped) then
+      if (.not. any(abs(matrices%c) > 0)) call recorder%remark("warning: DAMPED, but nothing in "// &
+                                                               "the model damps")
+    end if
+    if (analysis%matrices) call keep_matrices(model, system, matrices, modes)
+    call recorder%modes(modes, error)
+    if (allocated(error)) return
+    if (complex) then
+      call say_complex(modes, recorder)
+    else
+      call say(modes, recorder)
+    end if
+  end subroutine run_eigen
+
+  !> Whether frequencies are complex: the model turns, is damped, or has loads without a potential.
+  pure logical function is_complex(system, analysis, level, iterate)
+    type(system_t), intent(in) :: system
+    type(analysis_t), intent(in) :: analysis
+    real(wp), intent(in) :: level(:)
+    type(iterate_t), intent(in) :: iterate
+
+    is_complex = analysis%damped .or. any(abs(spin_at(system, level)) > 0)
+    if (is_complex .or. system%pattern%symmetric) return
+    is_complex = any(abs(amplitudes(system, level)) > 0) .and. &
+                 .not. is_conservative(system, iterate)
+  end function is_complex
+
+  !> The matrices and the names of their rows, for who records the modes.
+  pure subroutine keep_matrices(model, system, matrices, modes)
+    type(model_t), intent(in) :: model
+    type(system_t), intent(in) :: system
+    type(matrices_t), intent(in) :: matrices
+    type(modes_t), intent(inout) :: modes
+    integer :: k
+
+    modes%matrices = matrices
+    allocate (modes%unknown(system%unknowns), modes%unknown_of(2, system%unknowns))
+    modes%unknown_of = 0
+    do k = 1, system%coordinates
+      associate (at => system%unknown(k))
+        if (at == 0) cycle
+        modes%unknown(at) = coordinate_name(model, k)
+        if (k > node_coordinates*system%nodes) cycle
+        modes%unknown_of(:, at) = [(k - 1)/node_coordinates, modulo(k - 1, node_coordinates)] + 1
+      end associate
+    end do
+  end subroutine keep_matrices
+
+  !> The real problem, with the symmetric part of K where supports make it conservative.
+  subroutine find_real_modes(model, system, solver, masses, analysis, iterate, modes, error)
+    type(model_t), intent(in) :: model
+    type(system_t), intent(in) :: system
+    type(solver_t), intent(inout) :: solver
+    type(masses_t), intent(in) :: masses
+    type(analysis_t), intent(in) :: analysis
+    type(iterate_t), intent(in) :: iterate
+    type(modes_t), intent(out) :: modes
+    type(error_t), allocatable, intent(out) :: error
+    type(solver_t) :: own
+    type(half_t) :: half
+    type(pencil_t) :: pencil
+    real(wp) :: mass(size(system%pattern%row))
+
     call assemble_mass(system, masses, iterate%state, mass)
     call new_half(system%equations(), system%pattern, half)
     pencil%coordinates = system%unknowns
@@ -73,20 +149,18 @@ contains
     pencil%a = fold(half, iterate%values)
     pencil%q = fold(half, mass)
     if (system%pattern%symmetric) then
-      call find_frequencies(model, system, solver, pencil, masses, analysis, iterate, recorder, &
-                            error)
+      call find_frequencies(model, system, solver, pencil, masses, analysis, iterate, modes, error)
       return
     end if
-    if (.not. is_conservative(system, iterate)) call recorder%remark("warning: "//symmetric_part)
     call own%prepare(pencil%equations, half%row, half%column, .true., error)
     if (.not. allocated(error)) then
-      call find_frequencies(model, system, own, pencil, masses, analysis, iterate, recorder, error)
+      call find_frequencies(model, system, own, pencil, masses, analysis, iterate, modes, error)
     end if
     call own%free()
-  end subroutine run_eigen
+  end subroutine find_real_modes
 
-  !> Solve, name the kinds of the eigenvalues, record.
-  subroutine find_frequencies(model, system, solver, pencil, masses, analysis, iterate, recorder, &
+  !> Solve, name the kinds of the eigenvalues.
+  subroutine find_frequencies(model, system, solver, pencil, masses, analysis, iterate, modes, &
                               error)
     type(model_t), intent(in) :: model
     type(system_t), intent(in) :: system
@@ -95,10 +169,9 @@ contains
     type(masses_t), intent(in) :: masses
     type(analysis_t), intent(in) :: analysis
     type(iterate_t), intent(in) :: iterate
-    class(recorder_t), intent(inout) :: recorder
+    type(modes_t), intent(out) :: modes
     type(error_t), allocatable, intent(out) :: error
     type(pairs_t) :: pairs
-    type(modes_t) :: modes
     real(wp) :: shift, zero
     integer :: n
 
@@ -115,9 +188,8 @@ contains
     where (abs(modes%eigenvalue) <= zero) modes%eigenvalue = 0
     modes%frequency = sqrt(max(0.0_wp, modes%eigenvalue))/(2*pi)
     modes%imaginary = sqrt(max(0.0_wp, -modes%eigenvalue))/(2*pi)
+    modes%damping = 0*modes%eigenvalue
     call add_modes(model, system, masses, iterate, pairs, n, modes)
-    call recorder%modes(modes, error)
-    if (.not. allocated(error)) call say(modes, recorder)
   end subroutine find_frequencies
 
   !> Modes of mass 1, largest component positive.

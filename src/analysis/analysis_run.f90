@@ -3,7 +3,7 @@ module analysis_run
   use kinds, only: wp
   use errors, only: error_t, fail, exit_deck, exit_io
   use text, only: to_text
-  use model_data, only: model_t, analysis_t, control_arc, analysis_static, analysis_buckling, &
+  use model_data, only: model_t, analysis_t, control_arc, static_analyses, analysis_buckling, &
                         analysis_eigen, analysis_transient, analysis_kinematic, analysis_inverse, &
                         analysis_compliance, analysis_names
   use linalg_solver, only: solver_t
@@ -82,9 +82,20 @@ contains
                         system%pattern%symmetric, error)
     if (allocated(error) .or. .not. needs_structure(model)) return
     call refuse_free_motion(model, system, solver, iterate, error)
-    if (any(model%analysis%kind /= analysis_static)) return
+    if (.not. all_static(model)) return
     deallocate (system%pattern%row, system%pattern%column)  ! the solver has its own
   end subroutine set_up
+
+  !> Whether all analyses follow equilibria.
+  pure logical function all_static(model)
+    type(model_t), intent(in) :: model
+    integer :: i
+
+    all_static = .true.
+    do i = 1, size(model%analysis)
+      all_static = all_static .and. any(model%analysis(i)%kind == static_analyses)
+    end do
+  end function all_static
 
   subroutine run_in_order(model, system, solver, iterate, recorder, error, point)
     type(model_t), intent(in) :: model
@@ -186,7 +197,7 @@ contains
                          recorder, error)
     case (analysis_compliance)
       call run_compliance(model, system, solver, analysis, level, iterate, recorder, error)
-    case (analysis_static)
+    case (static_analyses(1), static_analyses(2))
       if (allocated(course%flow)) deallocate (course%flow)
       if (analysis%control == control_arc) then
         call run_arc(model, system, solver, analysis, level, iterate, recorder, error)

@@ -14,10 +14,12 @@ module mode_results
   use system_constraints, only: coordinate_scale
   use system_results, only: result_modes, shear_centre_shift
   use system_geometric, only: stress_increments
+  use system_linear, only: matrices_t
   implicit none
   private
 
-  public :: modes_t, new_modes, add_mode, by_coordinate, unit_factor, mode_kind, mode_lines
+  public :: modes_t, shapes_t, new_modes, add_mode, add_complex_mode, by_coordinate, unit_factor
+  public :: largest_component, mode_kind, mode_lines
 
   integer, parameter, public :: energy_kinds = 5
   character(len=9), parameter, public :: energy_names(energy_kinds) = &
@@ -27,14 +29,25 @@ module mode_results
     "dead moments on free rotations are not conservative: the modes are those of semitangential"// &
     " moments, with the symmetric part of the tangent"
 
+  !> Motion and strains of modes, the mode last.
+  type :: shapes_t
+    real(wp), allocatable :: displacement(:, :, :)  !< (3, nodes, modes)
+    real(wp), allocatable :: rotation(:, :, :)      !< (3, nodes, modes) spatial
+    real(wp), allocatable :: warping(:, :)          !< (nodes, modes)
+    real(wp), allocatable :: strain(:, :, :)        !< (8, members, modes)
+    real(wp), allocatable :: stress(:, :, :)        !< (8, members, modes)
+  end type shapes_t
+
   !> Modes of a BUCKLING or EIGEN analysis, arrays with the mode last.
   type :: modes_t
     integer :: modes = 0
     real(wp), allocatable :: multiplier(:)          !< BUCKLING: from the present state
     real(wp), allocatable :: load_factor(:)         !< BUCKLING: present factor and multiplier
     real(wp), allocatable :: eigenvalue(:)          !< EIGEN: omega squared [T^-2]
+    complex(wp), allocatable :: lambda(:)           !< EIGEN, complex: motion as exp(lambda t) [1/T]
     real(wp), allocatable :: frequency(:)           !< EIGEN: real part [1/T]; 0 if unstable
     real(wp), allocatable :: imaginary(:)           !< EIGEN: imaginary part of an unstable one
+    real(wp), allocatable :: damping(:)             !< EIGEN: ratio to critical damping
     real(wp), allocatable :: displacement(:, :, :)  !< (3, nodes, modes)
     real(wp), allocatable :: rotation(:, :, :)      !< (3, nodes, modes) spatial
     real(wp), allocatable :: warping(:, :)          !< (nodes, modes)
@@ -46,6 +59,10 @@ module mode_results
     real(wp) :: rigid_mass(6) = 0.0_wp              !< EIGEN: all mass, inertia about the centre
     real(wp) :: centre(3) = 0.0_wp                  !< EIGEN: centre of mass [L]
     logical :: complete = .true.                    !< no eigenvalue is missing between them
+    type(shapes_t), allocatable :: quadrature       !< EIGEN, complex: imaginary parts
+    type(matrices_t), allocatable :: matrices       !< EIGEN with MATRICES ON
+    character(len=40), allocatable :: unknown(:)    !< names of their rows
+    integer, allocatable :: unknown_of(:, :)        !< (2, rows) index of the node, or 0; component
   end type modes_t
 
 contains
@@ -69,6 +86,60 @@ contains
     type(iterate_t), intent(in) :: iterate
     real(wp), intent(in) :: solution(:)
     type(modes_t), intent(inout) :: modes
+
+    call add_shape(model, system, iterate, solution, modes)
+    modes%energy(:, modes%modes) = shares(modes%energy(:, modes%modes))
+  end subroutine add_mode
+
+  !> Add a complex mode; the shares of the energy are those of a period.
+  pure subroutine add_complex_mode(model, system, iterate, solution, modes)
+    type(model_t), intent(in) :: model
+    type(system_t), intent(in) :: system
+    type(iterate_t), intent(in) :: iterate
+    complex(wp), intent(in) :: solution(:)
+    type(modes_t), intent(inout) :: modes
+    type(modes_t) :: part
+
+    if (.not. allocated(modes%quadrature)) call new_quadrature(modes)
+    call add_shape(model, system, iterate, real(solution), modes)
+    call new_modes(system, 1, part)
+    call add_shape(model, system, iterate, aimag(solution), part)
+    associate (n => modes%modes, quadrature => modes%quadrature)
+      quadrature%displacement(:, :, n) = part%displacement(:, :, 1)
+      quadrature%rotation(:, :, n) = part%rotation(:, :, 1)
+      quadrature%warping(:, n) = part%warping(:, 1)
+      quadrature%strain(:, :, n) = part%strain(:, :, 1)
+      quadrature%stress(:, :, n) = part%stress(:, :, 1)
+      modes%energy(:, n) = shares(modes%energy(:, n) + part%energy(:, 1))
+    end associate
+  end subroutine add_complex_mode
+
+  pure subroutine new_quadrature(modes)
+    type(modes_t), intent(inout) :: modes
+
+    allocate (modes%quadrature)
+    allocate (modes%quadrature%displacement, mold=modes%displacement)
+    allocate (modes%quadrature%rotation, mold=modes%rotation)
+    allocate (modes%quadrature%warping, mold=modes%warping)
+    allocate (modes%quadrature%strain, mold=modes%strain)
+    allocate (modes%quadrature%stress, mold=modes%stress)
+  end subroutine new_quadrature
+
+  pure function shares(energy)
+    real(wp), intent(in) :: energy(energy_kinds)
+    real(wp) :: shares(energy_kinds)
+
+    shares = energy
+    if (sum(energy) > 0) shares = energy/sum(energy)
+  end function shares
+
+  !> Motion, strains, stresses, and twice the energies.
+  pure subroutine add_shape(model, system, iterate, solution, modes)
+    type(model_t), intent(in) :: model
+    type(system_t), intent(in) :: system
+    type(iterate_t), intent(in) :: iterate
+    real(wp), intent(in) :: solution(:)
+    type(modes_t), intent(inout) :: modes
     real(wp) :: motion(system%coordinates), stress(size(system%multiplier))
     integer :: i, k
 
@@ -82,7 +153,7 @@ contains
     end do
     call stress_increments(system, iterate, solution, stress)
     call add_members(model, system, iterate, motion, stress, modes)
-  end subroutine add_mode
+  end subroutine add_shape
 
   !> A solution's entries of the coordinates, zero where held.
   pure function by_coordinate(system, solution) result(motion)
@@ -107,7 +178,7 @@ contains
     real(wp), intent(in) :: motion(:), stress(:)
     type(modes_t), intent(inout) :: modes
     real(wp) :: strain(result_modes), force(result_modes), share(energy_kinds), shift(4)
-    real(wp) :: twist(3, 3), product(result_modes)
+    real(wp) :: twist(3, 3), product(result_modes), torque
     integer :: e
 
     share = 0
@@ -119,19 +190,20 @@ contains
         force = stress(first + 1:first + result_modes)
       end associate
       product = strain*force
+      where (system%multiplier(system%first(e) + 1:system%first(e) + result_modes) > 0) product = 0
       if (.not. like_previous(model, e)) twist = torsion_stiffness(model, e)
+      torque = product(2)
       product(2) = dot_product(strain([2, 7, 8]), matmul(twist, strain([2, 7, 8])))
       share(1:2) = share(1:2) + product(1:2)
       share(3) = share(3) + sum(product(3:4))
       share(4) = share(4) + sum(product(5:6))
-      share(5) = share(5) + strain(2)*force(2) + sum(product(7:8)) - product(2)
+      share(5) = share(5) + torque + sum(product(7:8)) - product(2)
       shift = shear_centre_shift(model, e)
       strain(3:6) = strain(3:6) - shift*strain(2)
       force(2) = force(2) + dot_product(shift, force(3:6))
       modes%strain(:, e, modes%modes) = strain
       modes%stress(:, e, modes%modes) = force
     end do
-    if (sum(share) > 0) share = share/sum(share)
     modes%energy(:, modes%modes) = share
   end subroutine add_members
 
@@ -186,28 +258,40 @@ contains
 
   !> Factor that makes the largest displacement 1 [L], or the largest rotation where nothing is
   !> displaced; its sign makes the largest component positive, of equal ones the first.
-  pure function unit_factor(system, solution) result(factor)
+  pure real(wp) function unit_factor(system, solution) result(factor)
     type(system_t), intent(in) :: system
     real(wp), intent(in) :: solution(:)
-    real(wp) :: factor, scaled, largest(3), signed(3)
-    integer :: k, kind
+    integer :: at
+
+    at = largest_component(system, abs(solution))
+    factor = 1
+    if (at > 0) factor = 1/solution(at)
+  end function unit_factor
+
+  !> The unknown of the largest displacement, of equal ones the first, or of the largest rotation
+  !> where nothing is displaced; 0: all are zero.
+  pure integer function largest_component(system, magnitude) result(at)
+    type(system_t), intent(in) :: system
+    real(wp), intent(in) :: magnitude(:)   !< by unknown
+    real(wp) :: scaled, largest(3)
+    integer :: k, kind, first(3)
 
     largest = 0
-    signed = 1
+    first = 0
     do k = 1, system%coordinates
       if (system%unknown(k) == 0) cycle
       kind = min(3, modulo(k - 1, node_coordinates)/3 + 1)
       if (k > node_coordinates*system%nodes) kind = 3
-      scaled = solution(system%unknown(k))/coordinate_scale(system, k)
-      if (abs(scaled) <= (1 + 1.0e-6_wp)*largest(kind)) cycle
-      largest(kind) = abs(scaled)
-      signed(kind) = solution(system%unknown(k))
+      scaled = magnitude(system%unknown(k))/coordinate_scale(system, k)
+      if (scaled <= (1 + 1.0e-6_wp)*largest(kind)) cycle
+      largest(kind) = scaled
+      first(kind) = system%unknown(k)
     end do
     kind = 1
     if (largest(2) > 1.0e6_wp*largest(1)) kind = 2
     if (all(largest(1:2) <= 0)) kind = 3
-    factor = 1/signed(kind)
-  end function unit_factor
+    at = first(kind)
+  end function largest_component
 
   !> "bending y 62 %, torsion 38 %": kinds with 5 % and more of the energy, the largest first.
   pure function mode_kind(energy) result(words)
@@ -240,6 +324,8 @@ contains
     allocate (line(modes%modes + 1))
     if (allocated(modes%multiplier)) then
       line(1)%s = "  mode     multiplier    load factor   strain energy"
+    else if (allocated(modes%lambda)) then
+      line(1)%s = "  mode      frequency  damping ratio   strain energy"
     else if (.not. allocated(modes%frequency)) then
       line(1)%s = "  mode   strain energy"
     else
@@ -249,6 +335,8 @@ contains
       if (allocated(modes%multiplier)) then
         write (numbers, "(i6, 2a15)") i, right(modes%multiplier(i)), right(modes%load_factor(i))
         line(i + 1)%s = numbers(:36)//"   "//mode_kind(modes%energy(:, i))
+      else if (allocated(modes%lambda)) then
+        line(i + 1)%s = complex_line(modes, i)
       else if (.not. allocated(modes%frequency)) then
         write (numbers, "(i6)") i
         line(i + 1)%s = numbers(:6)//"   "//mode_kind(modes%energy(:, i))
@@ -272,6 +360,17 @@ contains
       100*modes%effective_mass(1:3, i)/max(modes%rigid_mass(1:3), tiny(1.0_wp))
     line = trim(numbers)//"   "//mode_kind(modes%energy(:, i))
   end function frequency_line
+
+  pure function complex_line(modes, i) result(line)
+    type(modes_t), intent(in) :: modes
+    integer, intent(in) :: i
+    character(len=:), allocatable :: line
+    character(len=36) :: numbers
+
+    write (numbers, "(i6, 2a15)") i, right(modes%frequency(i)), right(modes%damping(i))
+    line = numbers//"   "//mode_kind(modes%energy(:, i))
+    if (real(modes%lambda(i)) > 0) line = line//", grows"
+  end function complex_line
 
   pure function right(number)
     real(wp), intent(in) :: number

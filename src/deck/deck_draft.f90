@@ -37,7 +37,7 @@ module deck_draft
 
   integer, parameter, public :: record_fix = 1, record_flexible = 2, record_release = 3, &
     record_stiffness = 4, record_inertia = 5, record_load = 6, record_marker = 7, &
-    record_gravity = 8, record_control = 9, record_stop = 10
+    record_gravity = 8, record_control = 9, record_stop = 10, record_rotation = 11
   integer, parameter, public :: record_compliance = 31, record_kept_nodes = 32, &
     record_kept_elements = 33
   integer, parameter, public :: record_damping = 21, record_stress = 22, record_strain = 23, &

@@ -10,6 +10,7 @@ module deck_keywords
   use deck_function_cards, only: read_ramp, read_sine, read_step, read_table, read_formula
   use deck_element_keywords, only: beam_keywords, joint_keywords, mode_keywords, motion_keywords
   use deck_load_cards, only: read_fix, read_marker, read_xf, read_delxf, read_gravity, &
+                             read_rotation, read_stationary, &
                              read_static, read_buckling, read_eigen, read_iterstep
   use deck_targets, only: read_imperfection
   use deck_time_keywords, only: time_keywords, output_keywords, spacar_keywords
@@ -217,25 +218,37 @@ contains
         "XF 2 10 0 0|DELXF 2 0 0 -1", "DELXF", read_delxf), &
       keyword_t("GRAVITY", "load", "gx:L*T^-2 gy:L*T^-2 gz:L*T^-2", "", &
         "is an acceleration of gravity that acts on all mass", &
-        "GRAVITY 0 0 -981", "", read_gravity)]
+        "GRAVITY 0 0 -981", "", read_gravity), &
+      keyword_t("ROTATION", "load", "w:T^-1 ax:1 ay:1 az:1 | "// &
+        "w:T^-1 ax:1 ay:1 az:1 ox:L oy:L oz:L", "", &
+        "turns the model steadily with the rate w about an axis, through the origin or a "// &
+        "point: STATIONARY ramps w, and what follows is about the turning model. Coordinates, "// &
+        "loads and supports are those of the frame that turns with it; later cards, about the "// &
+        "same axis, add to w", &
+        "ROTATION 2 0 0 1|STATIONARY", "", read_rotation)]
   end function load_keywords
 
   function analysis_keywords() result(table)
     type(keyword_t), allocatable :: table(:)
-
-    table = [ &
-      keyword_t("STATIC", "analysis", "", "STEPS n:count=10 | TO factor:1=1 | "// &
+    character(len=*), parameter :: static_options = "STEPS n:count=10 | TO factor:1=1 | "// &
         "CONTROL | LOAD | ARC | DISPLACEMENT node:nodes component:component value:1 | "// &
         "INITIAL factor:1 | MAXSTEPS n:count=200 | "// &
         "STOP node:nodes component:component value:1 | TOL tolerance:1=1e-7 | "// &
         "MAXITER n:count=30 | STABILITY kind:OFF/ON/REQUIRED=OFF | NAME name:word | "// &
-        "BRANCH switch:OFF/ON=OFF", &
+        "BRANCH switch:OFF/ON=OFF"
+
+    table = [ &
+      keyword_t("STATIC", "analysis", "", static_options, &
         "ramps the loads given since the last analysis. CONTROL LOAD (default): equal steps of "// &
         "the load factor to TO; CONTROL DISPLACEMENT: equal steps of a displacement of a node "// &
         "or marker to a value; CONTROL ARC: along the path, past limit points, to TO or STOP. "// &
         "STABILITY counts unstable modes and locates critical points, BRANCH ON switches to "// &
         "the secondary branch at the first bifurcation", &
         "STATIC STEPS 12 NAME lift", "mode 10", read_static), &
+      keyword_t("STATIONARY", "analysis", "", static_options, &
+        "finds the equilibrium of a model that turns steadily, in the frame that turns with it: "// &
+        "STATIC with the centrifugal forces of ROTATION, whose rate grows with the load factor", &
+        "ROTATION 2 0 0 1|STATIONARY", "", read_stationary), &
       keyword_t("BUCKLING", "analysis", "", "MODES n:count=10 | NAME name:word", &
         "finds the multipliers of the loads given since the last STATIC, or of those it "// &
         "applied, at which the state becomes unstable: n nearest zero of each sign", &
@@ -246,8 +259,10 @@ contains
         "XF 2 -1 0 0|BUCKLING MODES 2|IMPERFECTION 1 0.01|STATIC", "", read_imperfection), &
       keyword_t("EIGEN", "analysis", "", "MODES n:count=10 | NAME name:word | DAMPED | "// &
         "MATRICES state:OFF/ON=OFF", &
-        "finds the n lowest natural frequencies about the present state. DAMPED: complex, with "// &
-        "what DAMP, EDAMP and MATERIAL DAMPING say; MATRICES ON keeps the matrices", &
+        "finds the n lowest natural frequencies about the present state; complex ones, with "// &
+        "damping ratios and unstable motions, of a model that turns (ROTATION) or that has "// &
+        "follower loads, and with DAMPED, which counts what DAMP, EDAMP and MATERIAL DAMPING "// &
+        "say. MATRICES ON keeps the matrices in the result file", &
         "EIGEN MODES 6", "mode 7", read_eigen), &
       keyword_t("ITERSTEP", "analysis", &
         "iterations:count n:count? tolerance:1? -:text? -:text? m:count?", "", &

@@ -4,19 +4,19 @@ module deck_load_cards
   use diagnostics, only: place_t
   use deck_card, only: card_t
   use deck_draft, only: draft_t, record_t, iteration_t, record_fix, record_load, record_marker, &
-                        record_gravity, record_stop
+                        record_gravity, record_stop, record_rotation
   use deck_growth, only: grow
   use deck_settings, only: is_identifier
   use deck_model_cards, only: define_name
   use deck_element_cards, only: add_record, add_item
   use deck_targets, only: read_control, read_target
   use model_data, only: analysis_t, control_displacement, control_arc, stability_on, &
-                        analysis_buckling, analysis_eigen
+                        analysis_buckling, analysis_eigen, analysis_static, analysis_stationary
   implicit none
   private
 
-  public :: read_fix, read_marker, read_xf, read_delxf, read_gravity, read_static, read_iterstep, &
-            read_buckling, read_eigen
+  public :: read_fix, read_marker, read_xf, read_delxf, read_gravity, read_rotation, read_static, &
+            read_stationary, read_iterstep, read_buckling, read_eigen
   public :: begin_analysis, read_name, check_count, check_tolerance
 
   integer, parameter, public :: most_steps = 1000000
@@ -138,32 +138,73 @@ contains
   subroutine read_gravity(card, draft)
     type(card_t), intent(in) :: card
     type(draft_t), intent(inout) :: draft
+
+    call add_field(card, record_gravity, draft)
+  end subroutine read_gravity
+
+  !> ROTATION w ax ay az [ox oy oz]
+  subroutine read_rotation(card, draft)
+    type(card_t), intent(in) :: card
+    type(draft_t), intent(inout) :: draft
+
+    if (.not. any(abs(card%number(3:5)) > 0)) then
+      call draft%report%add_error(card%place(3), "the axis of a ROTATION has no direction", &
+                                  "ROTATION w ax ay az: 0 0 1 is the z axis")
+      return
+    end if
+    call add_field(card, record_rotation, draft)
+  end subroutine read_rotation
+
+  !> A card of numbers that acts on all mass, once before an analysis.
+  subroutine add_field(card, kind, draft)
+    type(card_t), intent(in) :: card
+    integer, intent(in) :: kind
+    type(draft_t), intent(inout) :: draft
     type(record_t) :: record
     integer :: i
 
     do i = 1, draft%records
-      if (draft%record(i)%kind /= record_gravity .or. draft%record(i)%block /= draft%block) cycle
-      call draft%report%add_error(card%place(1), "GRAVITY is given twice before an analysis", &
+      if (draft%record(i)%kind /= kind .or. draft%record(i)%block /= draft%block) cycle
+      call draft%report%add_error(card%place(1), upper(card%word(1))// &
+                                  " is given twice before an analysis", &
                                   "first at "//draft%report%location(draft%record(i)%place))
       return
     end do
-    record%kind = record_gravity
+    record%kind = kind
     record%place = card%place(1)
     record%block = draft%block
-    record%value(:3) = card%number(2:4)
+    record%value(:card%positional) = card%number(2:card%positional + 1)
     draft%records = draft%records + 1
     call grow(draft%record, draft%records)
     draft%record(draft%records) = record
-  end subroutine read_gravity
+  end subroutine add_field
 
-  !> STATIC with its options, in the order of the keyword table.
+  !> STATIC [STEPS n] [TO factor] [CONTROL ...] ...
   subroutine read_static(card, draft)
     type(card_t), intent(in) :: card
     type(draft_t), intent(inout) :: draft
+
+    call read_equilibria(card, draft, analysis_static)
+  end subroutine read_static
+
+  !> STATIONARY has the same options.
+  subroutine read_stationary(card, draft)
+    type(card_t), intent(in) :: card
+    type(draft_t), intent(inout) :: draft
+
+    call read_equilibria(card, draft, analysis_stationary)
+  end subroutine read_stationary
+
+  !> STATIC or STATIONARY with its options, in the order of the keyword table.
+  subroutine read_equilibria(card, draft, kind)
+    type(card_t), intent(in) :: card
+    type(draft_t), intent(inout) :: draft
+    integer, intent(in) :: kind
     type(analysis_t) :: analysis
     integer :: k
 
     call begin_analysis(card, 0, draft, analysis, k)
+    analysis%kind = kind
     associate (option => card%option)
       if (option(1) > 0) then
         draft%analysis_steps(k) = card%whole(option(1) + 1)
@@ -197,7 +238,7 @@ contains
       call check_arc_options(card, analysis, draft)
     end associate
     draft%model%analysis(k) = analysis
-  end subroutine read_static
+  end subroutine read_equilibria
 
   !> Options that only a path by its arc length has.
   subroutine check_arc_options(card, analysis, draft)

@@ -3,14 +3,15 @@ module deck_loads
   use kinds, only: wp
   use text, only: to_text, plural
   use diagnostics, only: place_t
-  use model_data, only: load_t, marker_t, analysis_t, pattern_t, analysis_static, &
+  use model_data, only: load_t, marker_t, analysis_t, pattern_t, static_analyses, &
                         analysis_buckling, analysis_eigen, time_analyses
   use deck_draft, only: draft_t, record_t, record_load, record_gravity, record_strain, &
-                        record_coordinate
+                        record_coordinate, record_rotation
   use deck_growth, only: grow
   use deck_modes, only: imply_analysis, implies_eigen, describe_analysis, check_timestep, &
                         mode_check, mode_static
   use deck_points, only: neighbours_t, resolve_point
+  use deck_rotations, only: set_rotation, check_rotations
   use deck_select, only: choice_t, select_nodes, id_text
   implicit none
   private
@@ -18,7 +19,7 @@ module deck_loads
   public :: set_analyses, set_loads
 
   integer, parameter :: base = 1, additional = 2
-  integer, parameter :: loads(2) = [record_load, record_gravity]  !< kinds of records
+  integer, parameter :: loads(3) = [record_load, record_gravity, record_rotation]  !< kinds
 
 contains
 
@@ -61,7 +62,7 @@ contains
       pending = max(pending, pattern(:, block))
       where (draft%model%imperfection%block == block) draft%model%imperfection%analysis = n + 1
       call add_analyses(draft, pending, block, patterns, analysis, n)
-      if (any([analysis_static, time_analyses] == analysis(n)%kind)) pending = 0
+      if (any([static_analyses, time_analyses] == analysis(n)%kind)) pending = 0
       if (all(pending > 0)) pending(base) = 0
     end do
     if (implies_eigen(draft, analysis(n))) then
@@ -191,11 +192,13 @@ contains
     end do
     do r = 1, draft%records
       associate (record => draft%record(r))
-        if (record%kind /= record_load .and. record%kind /= record_gravity) cycle
+        if (all(record%kind /= loads)) cycle
         p = pattern(merge(additional, base, record%additional), record%block)
         if (p == 0) cycle
         if (record%kind == record_gravity) then
           draft%model%pattern(p)%gravity = record%value(:3)
+        else if (record%kind == record_rotation) then
+          call set_rotation(draft%report, record, draft%model%pattern(p)%rotation)
         else
           call select_nodes(draft, record%from, record%to, choice)
           do i = 1, choice%found
@@ -209,6 +212,7 @@ contains
         applied%load = applied%load(:applied%loads)
       end associate
     end do
+    call check_rotations(draft%model, draft%report)
   end subroutine set_loads
 
   !> One load at one node or marker.

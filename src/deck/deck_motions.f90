@@ -4,7 +4,7 @@ module deck_motions
   use text, only: to_text
   use diagnostics, only: place_t
   use lookup_tables, only: id_table_t
-  use model_data, only: motion_t, analysis_static, control_displacement
+  use model_data, only: motion_t, static_analyses, control_displacement
   use model_functions, only: function_value
   use deck_draft, only: draft_t, record_t, record_coordinate, record_strain
   use deck_elements, only: modes_of, find_range, is_whole
@@ -276,7 +276,7 @@ contains
     known = .true.
     do k = 1, size(draft%model%analysis)
       associate (analysis => draft%model%analysis(k))
-        if (analysis%pattern /= pattern .or. analysis%kind /= analysis_static) cycle
+        if (analysis%pattern /= pattern .or. all(static_analyses /= analysis%kind)) cycle
         factor = analysis%factor
         known = analysis%control /= control_displacement .and. .not. analysis%stops
       end associate

@@ -4,7 +4,7 @@ module lapack_interfaces
   implicit none
   private
 
-  public :: dsytrf_rook, dsytrs_rook, dgetrf, dgetrs, dgeqp3, dormqr, dtrtrs, dsyev
+  public :: dsytrf_rook, dsytrs_rook, dgetrf, dgetrs, dgeqp3, dormqr, dtrtrs, dsyev, dgeev
 
   interface
     !> Symmetric indefinite factorization P L D L^T P^T with bounded (rook) pivoting.
@@ -97,6 +97,17 @@ module lapack_interfaces
       real(wp), intent(out) :: w(*), work(*)
       integer, intent(out) :: info
     end subroutine dsyev
+
+    !> Eigenvalues, and vectors on demand, of a general matrix.
+    subroutine dgeev(jobvl, jobvr, n, a, lda, wr, wi, vl, ldvl, vr, ldvr, work, lwork, info)
+      import :: wp
+      implicit none
+      character(len=1), intent(in) :: jobvl, jobvr
+      integer, intent(in) :: n, lda, ldvl, ldvr, lwork
+      real(wp), intent(inout) :: a(lda, *)
+      real(wp), intent(out) :: wr(*), wi(*), vl(ldvl, *), vr(ldvr, *), work(*)
+      integer, intent(out) :: info
+    end subroutine dgeev
   end interface
 
 end module lapack_interfaces

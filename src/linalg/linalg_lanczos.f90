@@ -1,5 +1,5 @@
-!> Lanczos with restarts (ARPACK) for A^-1 Q x = theta x on C x = 0, in the inner product of A: the
-!> only caller of ARPACK. Every operation is one solution with the factors of A and C.
+!> Lanczos with restarts (ARPACK) for A^-1 Q x = theta x on C x = 0, in the inner product of A.
+!> Every operation is one solution with the factors of A and C.
 module linalg_lanczos
   use kinds, only: wp, i8
   use errors, only: error_t, fail, exit_solve

@@ -1,10 +1,10 @@
-!> Sparse symmetric matrices by the entries of their lower triangle, for products.
+!> Sparse matrices by their entries, of symmetric ones those of the lower triangle, for products.
 module linalg_symmetric
   use kinds, only: wp
   implicit none
   private
 
-  public :: entries_t, compress, multiply
+  public :: entries_t, compress, multiply, multiply_general
 
   !> Entries that are not zero.
   type :: entries_t
@@ -16,17 +16,17 @@ contains
 
   !> The entries of a matrix that are not zero, among coordinates.
   pure subroutine compress(row, column, values, coordinates, matrix)
-    integer, intent(in) :: row(:), column(:)     !< row >= column
+    integer, intent(in) :: row(:), column(:)     !< if symmetric, row >= column
     real(wp), intent(in) :: values(:)
-    integer, intent(in) :: coordinates           !< rows from 1 to this count
+    integer, intent(in) :: coordinates           !< rows and columns from 1 to this count
     type(entries_t), intent(out) :: matrix
     integer :: k, n
 
-    n = count(abs(values) > 0 .and. row <= coordinates)
+    n = count(abs(values) > 0 .and. max(row, column) <= coordinates)
     allocate (matrix%row(n), matrix%column(n), matrix%value(n))
     n = 0
     do k = 1, size(values)
-      if (.not. abs(values(k)) > 0 .or. row(k) > coordinates) cycle
+      if (.not. abs(values(k)) > 0 .or. max(row(k), column(k)) > coordinates) cycle
       n = n + 1
       matrix%row(n) = row(k)
       matrix%column(n) = column(k)
@@ -49,5 +49,18 @@ contains
       end associate
     end do
   end subroutine multiply
+
+  !> y = B x with all entries given.
+  pure subroutine multiply_general(b, x, y)
+    type(entries_t), intent(in) :: b
+    real(wp), intent(in), contiguous :: x(:)
+    real(wp), intent(out), contiguous :: y(:)
+    integer :: k
+
+    y = 0
+    do k = 1, size(b%value)
+      y(b%row(k)) = y(b%row(k)) + b%value(k)*x(b%column(k))
+    end do
+  end subroutine multiply_general
 
 end module linalg_symmetric

@@ -6,7 +6,7 @@ module model_check
   use diagnostics, only: place_t, report_t
   use section_check, only: check_constants
   use model_data, only: model_t, member_t, joint_t, section_t, mode_flexible, mode_fixed, &
-                        mass_none, analysis_static, analysis_buckling, joint_truss, joint_hinge, &
+                        mass_none, static_analyses, analysis_buckling, joint_truss, joint_hinge, &
                         joint_spherical, joint_modes, joint_names, translational
   implicit none
   private
@@ -191,15 +191,19 @@ contains
                                                             to_text(node%id))
       end associate
     end do
-    if (size(model%pattern) == 0 .and. any(model%analysis%kind == analysis_static .or. &
-                                           model%analysis%kind == analysis_buckling)) then
+    if (size(model%pattern) == 0 .and. any([(any([static_analyses, analysis_buckling] == &
+                                             model%analysis(i)%kind), &
+                                             i=1, size(model%analysis))])) then
       call report%add_warning(deck_place, "the deck has no loads")
     end if
     do i = 1, size(model%pattern)
-      if (.not. any(abs(model%pattern(i)%gravity) > 0)) cycle
-      if (has_mass(model)) exit
-      call report%add_warning(deck_place, "GRAVITY acts on nothing: no element has mass", &
-                              "MATERIAL ... RHO, EM, or XM")
+      associate (pattern => model%pattern(i))
+        if (.not. any(abs([pattern%gravity, pattern%rotation%axis]) > 0)) cycle
+        if (has_mass(model)) exit
+        call report%add_warning(deck_place, trim(merge("GRAVITY ", "ROTATION", &
+          any(abs(pattern%gravity) > 0)))//" acts on nothing: no element has mass", &
+                                "MATERIAL ... RHO, EM, or XM")
+      end associate
       exit
     end do
   end subroutine check_use

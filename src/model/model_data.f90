@@ -13,7 +13,7 @@ module model_data
 
   public :: model_t, node_t, material_t, section_t, member_t, load_t, pattern_t, marker_t
   public :: function_t, analysis_t, setting_t, target_t, imperfection_t
-  public :: joint_t, mass_t, motion_t, start_t
+  public :: joint_t, mass_t, motion_t, start_t, rotation_t
 
   !> Kinds of nodes; an id names up to one of each.
   integer, parameter, public :: translational = 1, rotational = 2, warping = 3
@@ -46,17 +46,19 @@ module model_data
   integer, parameter, public :: analysis_static = 1, analysis_buckling = 2, analysis_eigen = 3, &
                                 analysis_transient = 4, analysis_kinematic = 5, &
                                 analysis_inverse = 6, analysis_compliance = 7, &
-                                analysis_check = 8
-  character(len=10), parameter, public :: analysis_names(8) = &
+                                analysis_check = 8, analysis_stationary = 9
+  character(len=10), parameter, public :: analysis_names(9) = &
     ["STATIC    ", "BUCKLING  ", "EIGEN     ", "TRANSIENT ", "KINEMATIC ", "INVERSE   ", &
-     "COMPLIANCE", "CHECK     "]
+     "COMPLIANCE", "CHECK     ", "STATIONARY"]
 
-  !> Those that follow time, those that end with modes, those that need a structure.
+  !> Those that ramp a pattern, those that follow time, those that end with modes, those that need a
+  !> structure.
+  integer, parameter, public :: static_analyses(2) = [analysis_static, analysis_stationary]
   integer, parameter, public :: time_analyses(3) = [analysis_transient, analysis_kinematic, &
                                                     analysis_inverse]
   integer, parameter, public :: mode_analyses(3) = [analysis_buckling, analysis_eigen, &
                                                     analysis_check]
-  integer, parameter, public :: structure_analyses(3) = [analysis_static, analysis_buckling, &
+  integer, parameter, public :: structure_analyses(4) = [static_analyses, analysis_buckling, &
                                                          analysis_compliance]
 
   !> What a STATIC analysis controls, and what it does about stability.
@@ -209,6 +211,14 @@ module model_data
     type(place_t) :: place
   end type start_t
 
+  !> A steady turn of the whole model about an axis (ROTATION).
+  type :: rotation_t
+    real(wp) :: rate = 0.0_wp               !< [T^-1]; adds to that of earlier patterns
+    real(wp) :: axis(3) = 0.0_wp            !< unit vector; zero: there is none
+    real(wp) :: origin(3) = 0.0_wp          !< a point of the axis [L]
+    type(place_t) :: place
+  end type rotation_t
+
   !> The loads and motions given between two analyses; ramped together.
   type :: pattern_t
     type(motion_t), allocatable :: motion(:)
@@ -216,6 +226,7 @@ module model_data
     type(load_t), allocatable :: load(:)
     integer :: loads = 0                  !< how many of `load` are in use
     real(wp) :: gravity(3) = 0.0_wp       !< acceleration [L T^-2]
+    type(rotation_t) :: rotation
   end type pattern_t
 
   !> A named function of the load factor.

@@ -32,6 +32,7 @@ contains
 
     is_mode_dataset = .false.
     if (index(dataset%axes, "mode*") /= 1 .and. index(dataset%axes, "mode;") /= 1) return
+    if (index(dataset%axes, "real imaginary") > 0) return
     group = group_of(dataset%path)
     if (group == "") return
     if (eigenvalue_name(reader, group) == "") return

@@ -2,7 +2,7 @@
 !> begins, so that files do not depend on the clock.
 module output_schedule
   use kinds, only: wp, i8
-  use model_data, only: analysis_t, analysis_static, time_analyses, control_arc
+  use model_data, only: analysis_t, static_analyses, time_analyses, control_arc
   implicit none
   private
 
@@ -41,7 +41,7 @@ contains
   pure logical function has_steps(kind)
     integer, intent(in) :: kind
 
-    has_steps = kind == analysis_static .or. in_time(kind)
+    has_steps = any(kind == static_analyses) .or. in_time(kind)
   end function has_steps
 
   !> How many steps an analysis records, about; in time it goes from `start` [T].

@@ -10,10 +10,12 @@ module system_assembly
   use system_pattern, only: add_block
   use system_loads, only: add_loads, load_direction
   use system_motion, only: set_targets, target_direction
+  use system_rotation, only: add_rotation, spin_at
   implicit none
   private
 
-  public :: iterate_t, new_iterate, assemble, right_hand_side, pattern_direction, advance
+  public :: iterate_t, new_iterate, assemble, assemble_elements, assemble_loads
+  public :: right_hand_side, pattern_direction, advance
 
   !> Where the iteration stands; what `assemble` leaves is about `state` as it was then.
   type :: iterate_t
@@ -65,6 +67,17 @@ contains
     type(system_t), intent(in) :: system
     real(wp), intent(in) :: level(:)
     type(iterate_t), intent(inout) :: iterate
+
+    call assemble_elements(system, iterate)
+    if (iterate%invalid > 0) return
+    if (size(system%drive) > 0) call set_targets(system, level, iterate%target)
+    call assemble_loads(system, level, iterate%state, iterate%external, iterate%values)
+  end subroutine assemble
+
+  !> The elements alone: what their strains and stresses make, no loads.
+  pure subroutine assemble_elements(system, iterate)
+    type(system_t), intent(in) :: system
+    type(iterate_t), intent(inout) :: iterate
     integer :: e
 
     iterate%internal = 0
@@ -81,9 +94,19 @@ contains
       end associate
       if (iterate%invalid > 0) return
     end do
-    if (size(system%drive) > 0) call set_targets(system, level, iterate%target)
-    call add_loads(system, iterate%state, level, iterate%external, iterate%values)
-  end subroutine assemble
+  end subroutine assemble_elements
+
+  !> Add the loads and, in a frame that turns, the centrifugal forces, and their tangent.
+  pure subroutine assemble_loads(system, level, state, external, values)
+    type(system_t), intent(in) :: system
+    real(wp), intent(in) :: level(:)
+    type(state_t), intent(in) :: state
+    real(wp), intent(inout) :: external(:), values(:)
+
+    call add_loads(system, state, level, external, values)
+    if (size(system%rotor) == 0) return
+    call add_rotation(system, state, spin_at(system, level), external, values)
+  end subroutine assemble_loads
 
   pure subroutine assemble_element(system, e, element, jacobian, iterate)
     type(system_t), intent(in) :: system

@@ -8,6 +8,7 @@ module system_build
   use system_forces, only: make_loads
   use system_motion, only: make_motions
   use system_pattern, only: find_pattern
+  use system_rotation, only: make_rotors
   implicit none
   private
 
@@ -40,6 +41,7 @@ contains
     call number_multipliers(system)
     call make_loads(model, system)
     system%mass_node = mass_nodes(model)
+    call make_rotors(model, system)
   end subroutine build_system
 
   !> Stress resultants of ESIG, of strains that have a law.

@@ -7,11 +7,16 @@ module system_data
   use nodal_state, only: state_t
   use element_base, only: element_slot_t
   use beamw_constants, only: beamw_t
+  use beamw_inertia, only: inertia_t
+  use node_inertia, only: node_inertia_t
   use model_data, only: function_t
   implicit none
   private
 
   public :: system_t, dead_load_t, constants_slot_t, pattern_t, unknown_name_t, drive_t, turn_t
+  public :: masses_t, rotor_t
+
+  integer, parameter, public :: body_size = 14  !< most coordinates of a body
 
   !> A pointer that can live in an array.
   type :: constants_slot_t
@@ -50,6 +55,26 @@ module system_data
     integer :: first = 0, strains = 0
     logical :: euler = .false.
   end type turn_t
+
+  !> A steady turn of the model's frame, in full.
+  type :: rotor_t
+    integer :: pattern = 0
+    real(wp) :: spin(3) = 0.0_wp        !< angular velocity [T^-1]
+  end type rotor_t
+
+  !> What has mass: beams, then trusses, then nodes.
+  type :: masses_t
+    integer :: bodies = 0, beams = 0, trusses = 0
+    integer, allocatable :: block(:)           !< by body: its block of the system's pattern
+    integer, allocatable :: coordinates(:)     !< by body: 14 or 6
+    integer, allocatable :: coordinate(:, :)   !< (14, bodies)
+    integer, allocatable :: node(:, :, :)      !< (kind, end, bodies); of a node: at end 1
+    type(inertia_t), allocatable :: beam(:)
+    real(wp), allocatable :: truss(:, :, :)    !< (6, 6, trusses)
+    type(node_inertia_t), allocatable :: point(:)
+    real(wp), allocatable :: position(:, :)    !< (3, nodes) initial
+    real(wp) :: total = 0.0_wp                 !< [M]
+  end type masses_t
 
   !> Sparsity in coordinate form and, for each block (element or load), where its entries go.
   type :: pattern_t
@@ -94,6 +119,9 @@ module system_data
     integer, allocatable :: holder(:, :)  !< (7, nodes) element whose strain it is; 0: none
     !> By pattern: its level is the time; cards without a function act in full.
     logical, allocatable :: timed(:)
+    type(rotor_t), allocatable :: rotor(:)
+    real(wp) :: axis_point(3) = 0.0_wp    !< of the axis of all rotors [L]
+    type(masses_t) :: masses              !< of a model with rotors
     type(constants_slot_t), allocatable :: constants(:)
     integer :: constants_used = 0
     type(pattern_t) :: pattern

@@ -11,7 +11,7 @@ module system_geometric
   implicit none
   private
 
-  public :: stress_increments, assemble_geometric, is_conservative
+  public :: stress_increments, assemble_geometric, add_geometric, is_conservative
 
   real(wp), parameter :: parallel = 1.0e-12_wp
 
@@ -72,18 +72,28 @@ contains
     integer, intent(in) :: pattern, patterns !< which, and how many there are
     real(wp), intent(out) :: values(:)
     real(wp) :: level(patterns), unused(system%coordinates)
-    integer :: e
 
     values = 0
-    do e = 1, size(system%element)
-      call add_element(system, e, system%element(e)%e, iterate, &
-                       stress(system%first(e) + 1:system%first(e + 1)), values)
-    end do
+    call add_geometric(system, iterate, stress, values)
     level = 0
     level(pattern) = 1
     unused = 0
     call add_loads(system, iterate%state, level, unused, values)
   end subroutine assemble_geometric
+
+  !> Add the sum of stress(i) times the Hessian of strain i at the present state.
+  pure subroutine add_geometric(system, iterate, stress, values)
+    type(system_t), intent(in) :: system
+    type(iterate_t), intent(in) :: iterate
+    real(wp), intent(in) :: stress(:)        !< by strain
+    real(wp), intent(inout) :: values(:)
+    integer :: e
+
+    do e = 1, size(system%element)
+      call add_element(system, e, system%element(e)%e, iterate, &
+                       stress(system%first(e) + 1:system%first(e + 1)), values)
+    end do
+  end subroutine add_geometric
 
   pure subroutine add_element(system, e, element, iterate, stress, values)
     type(system_t), intent(in) :: system

@@ -7,31 +7,15 @@ module system_inertia
   use nodal_state, only: state_t, coordinate_number
   use rotation, only: cross, identity3
   use beamw_inertia, only: inertia_t, new_inertia, inertia_mass
-  use node_inertia, only: node_inertia_t, node_inertia_forces
+  use node_inertia, only: node_inertia_forces
   use truss_inertia, only: truss_mass
-  use system_data, only: system_t
+  use system_data, only: system_t, masses_t, body_size
   use system_pattern, only: add_block
   implicit none
   private
 
   public :: masses_t, new_masses, assemble_mass, mass_product, rigid_motion, mass_centre
-  public :: body_coordinates, truss_density
-
-  integer, parameter, public :: body_size = 14  !< most coordinates of a body
-
-  !> What has mass: beams, then trusses, then nodes.
-  type :: masses_t
-    integer :: bodies = 0, beams = 0, trusses = 0
-    integer, allocatable :: block(:)           !< by body: its block of the system's pattern
-    integer, allocatable :: coordinates(:)     !< by body: 14 or 6
-    integer, allocatable :: coordinate(:, :)   !< (14, bodies)
-    integer, allocatable :: node(:, :, :)      !< (kind, end, bodies); of a node: at end 1
-    type(inertia_t), allocatable :: beam(:)
-    real(wp), allocatable :: truss(:, :, :)    !< (6, 6, trusses)
-    type(node_inertia_t), allocatable :: point(:)
-    real(wp), allocatable :: position(:, :)    !< (3, nodes) initial
-    real(wp) :: total = 0.0_wp                 !< [M]
-  end type masses_t
+  public :: body_coordinates, truss_density, body_size
 
 contains
 

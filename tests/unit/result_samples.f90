@@ -41,6 +41,7 @@ contains
       m%modes = sample_modes
       m%frequency = [1.0_wp, 2.0_wp, 3.0_wp]
       m%imaginary = [0.0_wp, 0.0_wp, 0.0_wp]
+      m%damping = [0.0_wp, 0.0_wp, 0.0_wp]
       m%eigenvalue = 39.5_wp*m%frequency**2
       allocate (m%displacement(3, nodes, sample_modes), m%rotation(3, nodes, sample_modes), &
                 m%warping(nodes, sample_modes), m%strain(8, members, sample_modes), &

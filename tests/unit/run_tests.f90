@@ -30,12 +30,14 @@ program run_tests
   use test_path, only: run_path_tests
   use test_stability, only: run_stability_tests
   use test_linalg_eigen, only: run_linalg_eigen_tests
+  use test_linalg_quadratic, only: run_linalg_quadratic_tests
   use test_buckling, only: run_buckling_tests
   use test_eigen, only: run_eigen_tests
   use test_transient_rigid, only: run_transient_rigid_tests
   use test_transient_flexible, only: run_transient_flexible_tests
   use test_transient_power, only: run_transient_power_tests
   use test_transient_start, only: run_transient_start_tests
+  use test_complex_modes, only: run_complex_modes_tests
   use test_output_hdf5, only: run_output_hdf5_tests
   use test_output_results, only: run_output_results_tests
   use test_output_compare, only: run_output_compare_tests
@@ -84,12 +86,14 @@ program run_tests
   call run_path_tests()
   call run_stability_tests()
   call run_linalg_eigen_tests()
+  call run_linalg_quadratic_tests()
   call run_buckling_tests()
   call run_eigen_tests()
   call run_transient_rigid_tests()
   call run_transient_flexible_tests()
   call run_transient_power_tests()
   call run_transient_start_tests()
+  call run_complex_modes_tests()
   call run_output_hdf5_tests()
   call run_output_results_tests()
   call run_output_compare_tests()

@@ -1,0 +1,375 @@
+!> STATIONARY, and EIGEN of models that turn, are damped or have follower loads, against closed
+!> forms and published numbers.
+module test_complex_modes
+  use kinds, only: wp
+  use check, only: run, expect, expect_close
+  use errors, only: error_t
+  use model_data, only: model_t
+  use memory_recorder, only: memory_t, run_deck
+  use mode_results, only: modes_t
+  use program_runs, only: outcome_t, run_spar, scratch
+  use result_reader, only: get_reals, get_integers
+  implicit none
+  private
+
+  public :: run_complex_modes_tests
+
+  real(wp), parameter :: pi = acos(-1.0_wp)
+
+contains
+
+  subroutine run_complex_modes_tests()
+    call run("turning: the channel cantilever (theory 10)", channel)
+    call run("turning: rates of patterns add, forces go with their square", rates)
+    call run("turning: whirl of an overhung disk (EIG-15)", disk)
+    call run("turning: critical speeds of the disk (EIG-15)", critical)
+    call run("turning: rigid rotor on two bearings (EIG-17)", rotor)
+    call run("turning: flapping and lagging of a cantilever (EIG-09)", blade)
+    call run("damped: two free masses", pair)
+    call run("damped: a damper and a spring without mass between", oscillator)
+    call run("damped: proportional damping", proportional)
+    call run("follower: Beck's column", beck)
+    call run("matrices: they have the modes found", matrices)
+  end subroutine run_complex_modes_tests
+
+  !> The last spectrum of a deck of tests/cases/rotating.
+  subroutine solve(name, modes, settings, remark)
+    character(len=*), intent(in) :: name
+    type(modes_t), intent(out) :: modes
+    character(len=*), intent(in), optional :: settings(:)
+    character(len=*), intent(in), optional :: remark   !< must begin one of the remarks
+    type(memory_t) :: memory
+    type(model_t) :: model
+    type(error_t), allocatable :: error
+    logical :: found
+    integer :: i
+
+    call run_deck("../rotating/"//name, memory, model, error, settings)
+    call expect(.not. allocated(error), name//": no error")
+    allocate (modes%frequency(0))
+    if (allocated(error)) return
+    if (size(memory%spectrum) == 0) return
+    modes = memory%spectrum(1)
+    if (.not. present(remark)) return
+    found = .false.
+    do i = 1, size(memory%remarks)
+      if (index(memory%remarks(i)%s, remark) == 1) found = .true.
+    end do
+    call expect(found, name//": the remark '"//remark//"'")
+  end subroutine solve
+
+  !> Load factors at 30, 90 and 210 cm with lumped inertia; the consistent one is near to it.
+  subroutine channel()
+    real(wp), parameter :: wanted(3) = [8.9698_wp, 10.7786_wp, 16.5885_wp]
+    type(memory_t) :: memory
+    type(model_t) :: model
+    type(error_t), allocatable :: error
+
+    call run_deck("../rotating/channel", memory, model, error)
+    call expect(.not. allocated(error), "no error")
+    if (allocated(error)) return
+    call expect_close(memory%record([12, 32, 72])%factor, wanted, 5.1e-5_wp, "load factors")
+    call run_deck("../rotating/channel", memory, model, error, ["mass=CONSISTENT"])
+    if (allocated(error)) return
+    call expect_close(memory%record([12, 32, 72])%factor/wanted, [1, 1, 1]*1.0_wp, 2.0e-3_wp, &
+                      "consistent inertia")
+  end subroutine channel
+
+  !> A bar that turns: the tip moves by rho W**2 L**3/(3 E), the support holds m W**2 L/2.
+  subroutine rates()
+    type(memory_t) :: memory
+    type(model_t) :: model
+    type(error_t), allocatable :: error
+    real(wp), parameter :: tip = 1.0e-6_wp/3, force = 0.5_wp
+    real(wp) :: level(6)
+    integer :: i
+
+    call run_deck("../rotating/bar", memory, model, error)
+    call expect(.not. allocated(error), "no error")
+    if (allocated(error)) return
+    level = [0.5_wp, 1.0_wp, 1.5_wp, 2.0_wp, 2.0_wp, 2.0_wp]
+    do i = 1, 6
+      call expect_close(memory%results(i)%displacement(1, 11), tip*level(i)**2, &
+                        1.0e-3_wp*tip*level(i)**2, "tip")
+      call expect_close(memory%results(i)%reaction(1, 1), -force*level(i)**2, 1.0e-5_wp, "reaction")
+    end do
+  end subroutine rates
+
+  !> Closed form of Stodola and Green in an inertial frame, forward positive; in the turning frame
+  !> less by the rate. In the plane of the disk e^(i w t) turns forward where Y lags X by 90 degrees.
+  subroutine disk()
+    real(wp), parameter :: rate(3) = [0.0_wp, 100.0_wp, 300.0_wp]
+    character(len=8), parameter :: setting(3) = ["rate=0  ", "rate=100", "rate=300"]
+    real(wp), parameter :: whirl(4, 3) = reshape([ &
+      -1181.9287335866798_wp, -138.43583790908852_wp, 138.43583790908846_wp, 1181.9287335866807_wp, &
+      -1090.9325730019045_wp, -133.99863653381655_wp, 142.84466255854298_wp, 1282.0865469771782_wp, &
+      -935.6948598819398_wp, -125.13440779629714_wp, 151.48915708247273_wp, 1509.3401105957646_wp], &
+      [4, 3])
+    type(modes_t) :: modes
+    real(wp) :: found(4)
+    integer :: i, k
+
+    call solve("disk", modes, [setting(1)])
+    if (modes%modes < 4) return
+    call expect_close(2*pi*modes%frequency([1, 3]), whirl(3:4, 1), 1.0e-6_wp*1182, "at rest")
+    do i = 2, 3
+      call solve("disk", modes, [setting(i)], "no frequency is missing")
+      if (modes%modes < 4) cycle
+      do k = 1, 4
+        associate (x => modes%displacement(1:2, 2, k), y => modes%quadrature%displacement(1:2, 2, k))
+          call expect_close(norm2(y)/norm2(x), 1.0_wp, 1.0e-6_wp, "a circle")
+          found(k) = rate(i) + sign(2*pi*modes%frequency(k), x(2)*y(1) - x(1)*y(2))
+        end associate
+      end do
+      call expect_close(sorted(found)/whirl(:, i), [1, 1, 1, 1]*1.0_wp, 1.0e-6_wp, setting(i))
+    end do
+  end subroutine disk
+
+  pure function sorted(x) result(y)
+    real(wp), intent(in) :: x(:)
+    real(wp) :: y(size(x))
+    logical :: left(size(x))
+    integer :: i, at
+
+    left = .true.
+    do i = 1, size(x)
+      at = minloc(x, 1, left)
+      left(at) = .false.
+      y(i) = x(at)
+    end do
+  end function sorted
+
+  !> Forward whirl that keeps up with the shaft is at rest in its frame, a frequency zero; backward
+  !> whirl at that rate has twice the rate. EI is given with six digits.
+  subroutine critical()
+    type(modes_t) :: modes
+
+    call solve("disk", modes, ["rate=144.804808708"])
+    if (modes%modes > 0) call expect_close(2*pi*modes%frequency(1)/144.8_wp, 0.0_wp, 1.0e-4_wp, &
+                                           "forward")
+    call solve("disk", modes, ["rate=132.552059365"])
+    if (modes%modes > 1) call expect_close(pi*modes%frequency(2)/132.552059365_wp, 1.0_wp, &
+                                           1.0e-6_wp, "backward")
+    call solve("disk", modes, ["rate=712.676958208"])
+    if (modes%modes > 3) call expect(any(abs(pi*modes%frequency/712.676958208_wp - 1) < 1.0e-6_wp), &
+                                     "backward, of the second pair")
+  end subroutine critical
+
+  !> 447.2136 either way, -500 and 1250 in an inertial frame, the rate is 500.
+  subroutine rotor()
+    real(wp), parameter :: translation = 447.21359549995793_wp
+    type(modes_t) :: modes
+
+    call solve("rotor", modes, remark="no frequency is missing up to mode 4")
+    call expect(modes%modes == 4, "four modes")
+    if (modes%modes /= 4) return
+    call expect_close(2*pi*modes%frequency, [500 - translation, 750.0_wp, 500 + translation, &
+                                             1000.0_wp], 1.0e-6_wp, "frequencies")
+    call expect_close(modes%damping, [0, 0, 0, 0]*1.0_wp, 0.0_wp, "undamped")
+  end subroutine rotor
+
+  !> Wright et al., JAM 49 (1982) 197; in the plane of rotation the square is less by that of the
+  !> rate. By all eigenvalues and by iteration.
+  subroutine blade()
+    real(wp), parameter :: flap(3, 3) = reshape([ &
+      4.7972785323630776_wp, 23.320263674295944_wp, 62.984967480682776_wp, &
+      7.3603730193100185_wp, 26.80908167849793_wp, 66.68391438150489_wp, &
+      13.170150487506177_wp, 37.603112331191866_wp, 79.61447848945721_wp], [3, 3])
+    character(len=6), parameter :: setting(3) = ["eta=3 ", "eta=6 ", "eta=12"]
+    real(wp), parameter :: eta(3) = [3.0_wp, 6.0_wp, 12.0_wp]
+    type(modes_t) :: modes
+    real(wp) :: both(6)
+    integer :: i
+
+    do i = 1, 3
+      both(2::2) = flap(:, i)
+      both(1::2) = sqrt(flap(:, i)**2 - eta(i)**2)
+      call solve("blade", modes, [character(len=6) :: setting(i), "n=12"])
+      if (modes%modes < 6) cycle
+      call expect(modes%complete, "dense")
+      call expect_close(2*pi*modes%frequency/both, spread(1.0_wp, 1, 6), 1.0e-3_wp, setting(i))
+      call solve("blade", modes, [character(len=6) :: setting(i), "n=40"])
+      if (modes%modes < 6) cycle
+      call expect(.not. modes%complete, "by iteration")
+      call expect_close(2*pi*modes%frequency/both, spread(1.0_wp, 1, 6), 2.0e-4_wp, setting(i))
+    end do
+  end subroutine blade
+
+  !> Reduced mass 1.2, stiffness 50, resistance c/2; five motions are free, and where damping is
+  !> more than critical each of the two rates is a mode.
+  subroutine pair()
+    type(modes_t) :: modes
+    complex(wp) :: root, rest(2)
+
+    call solve("pair", modes, remark="5 free motions with frequency zero")
+    call expect(modes%modes == 6, "six modes")
+    if (modes%modes /= 6) return
+    root = closed(0.5_wp, 1.0_wp)
+    call expect_close(abs(modes%lambda(6) - root), 0.0_wp, 1.0e-8_wp, "eigenvalue")
+    call expect_close(modes%frequency(6), aimag(root)/(2*pi), 1.0e-8_wp, "frequency")
+    call expect_close(modes%damping(6), 0.25_wp/sqrt(50*1.2_wp), 1.0e-8_wp, "damping ratio")
+    call solve("pair", modes, ["c=50"])
+    call expect(modes%modes == 7, "seven modes")
+    if (modes%modes /= 7) return
+    rest = [closed(25.0_wp, 1.0_wp), closed(25.0_wp, -1.0_wp)]
+    call expect_close(abs(modes%lambda(6:7) - rest), [0, 0]*1.0_wp, 1.0e-7_wp, "real eigenvalues")
+    call expect_close(modes%damping(6:7), [1, 1]*1.0_wp, 0.0_wp, "no oscillation")
+    call expect_close(modes%frequency(6:7), [0, 0]*1.0_wp, 0.0_wp, "no frequency")
+  end subroutine pair
+
+  !> Root of 1.2 s**2 + c s + 50 = 0 on either side.
+  pure complex(wp) function closed(c, side)
+    real(wp), intent(in) :: c, side
+
+    closed = (-c + side*sqrt(cmplx(c**2 - 4*1.2_wp*50, 0.0_wp, wp)))/(2*1.2_wp)
+  end function closed
+
+  !> (m s**2 + c s + k)(cs s + ks) + ks cs s = 0: two motions of the mass, one without.
+  subroutine oscillator()
+    type(modes_t) :: modes
+    complex(wp) :: s
+    integer :: i
+
+    call solve("oscillator", modes)
+    call expect(modes%modes == 2, "a pair and a real eigenvalue")
+    if (modes%modes /= 2) return
+    do i = 1, 2
+      s = modes%lambda(i)
+      call expect_close(abs((2*s**2 + 0.4_wp*s + 50)*(2*s + 30) + 60*s), 0.0_wp, 1.0e-8_wp, &
+                        "characteristic polynomial")
+    end do
+    call expect(aimag(modes%lambda(1)) > 1 .and. real(modes%lambda(2)) < -1, "both kinds")
+  end subroutine oscillator
+
+  !> ratio = (alpha/omega + beta omega)/2 without stresses; MATERIAL DAMPING adds to beta. By all
+  !> eigenvalues and by iteration. Behind the fifth come overdamped ones, all near -1/beta.
+  subroutine proportional()
+    character(len=14), parameter :: more(3) = ["n=8           ", "material=1e-3 ", "n=30          "]
+    type(memory_t) :: memory
+    type(model_t) :: model
+    type(error_t), allocatable :: error
+    real(wp) :: omega(5), ratio(5), beta
+    integer :: i
+
+    do i = 1, 3
+      call run_deck("../rotating/proportional", memory, model, error, &
+                    [character(len=14) :: "f=0", more(i)])
+      call expect(.not. allocated(error), "no error")
+      if (allocated(error)) cycle
+      call expect(memory%spectrum(1)%complete .eqv. i < 3, "dense")
+      beta = merge(3.0e-3_wp, 2.0e-3_wp, i == 2)
+      omega = 2*pi*memory%spectrum(2)%frequency(:5)
+      ratio = 0.5_wp*(0.3_wp/omega + beta*omega)
+      associate (modes => memory%spectrum(1))
+        call expect_close(modes%damping(:5)/ratio, spread(1.0_wp, 1, 5), 1.0e-7_wp, "ratio")
+        call expect_close(abs(modes%lambda(:5))/omega, spread(1.0_wp, 1, 5), 1.0e-7_wp, "undamped")
+        call expect_close(2*pi*modes%frequency(:5)/(omega*sqrt(1 - ratio**2)), &
+                          spread(1.0_wp, 1, 5), &
+                          1.0e-7_wp, "damped")
+      end associate
+    end do
+  end subroutine proportional
+
+  !> Flutter at 20.0509 EI/L**2 (Beck 1952); ten elements are 1e-4 off at most.
+  subroutine beck()
+    character(len=8), parameter :: below(2) = ["p=20.04 ", "p=20.05 "]
+    type(modes_t) :: modes
+    integer :: i
+
+    do i = 1, 2
+      call solve("beck", modes, below(i:i))
+      if (modes%modes == 6) call expect_close(modes%damping, spread(0.0_wp, 1, 6), 0.0_wp, below(i))
+    end do
+    call solve("beck", modes, ["p=20.055"], "warning: the state is unstable: 2 growing modes")
+    if (modes%modes /= 6) return
+    call expect(all(modes%damping(1:2) < 0) .and. all(modes%imaginary(1:2) > 0), "they grow")
+    call expect_close(modes%damping(3:4), -modes%damping(1:2), 1.0e-6_wp, "two others decay")
+  end subroutine beck
+
+  !> (lambda**2 M + lambda C + K + G - N) x = 0 from the file, of a turning, damped, loaded beam.
+  subroutine matrices()
+    character(len=:), allocatable :: path
+    character(len=*), parameter :: group = "analysis/02_eigen/"
+    type(outcome_t) :: outcome
+    real(wp), allocatable :: lambda(:), re(:, :), im(:, :)
+    real(wp), allocatable, dimension(:, :) :: k, g, n, c, m
+    complex(wp), allocatable :: x(:)
+    complex(wp) :: s
+    integer, allocatable :: coordinate(:), extents(:)
+    integer :: i
+
+    path = scratch("matrices.h5")
+    call run_spar("run tests/cases/rotating/proportional.deck -D rate=3 --quiet --no-vtk -o "//path, &
+                  outcome)
+    call expect(outcome%status == 0, "it runs")
+    call get_reals(path, group//"complex_eigenvalue", lambda, extents)
+    call get_integers(path, group//"matrices/coordinate", coordinate, extents)
+    call read_motion(path, "", re)
+    call read_motion(path, "_imaginary", im)
+    call read_matrix("K", k)
+    call read_matrix("G", g)
+    call read_matrix("N", n)
+    call read_matrix("C", c)
+    call read_matrix("M", m)
+    call expect(size(lambda) == 12 .and. size(k, 1) > 40, "all there")
+    if (size(lambda) /= 12) return
+    call expect_close(k, transpose(k), 1.0e-9_wp*maxval(abs(k)), "K is symmetric")
+    call expect_close(m, transpose(m), 1.0e-12_wp*maxval(abs(m)), "M is symmetric")
+    call expect(maxval(abs(c - transpose(c))) > 0.1_wp*maxval(abs(m)), "C is not")
+    call expect(maxval(abs(g)) > 0 .and. maxval(abs(n)) > 0, "G and N are there")
+    do i = 1, 6
+      s = cmplx(lambda(2*i - 1), lambda(2*i), wp)
+      x = [cmplx(re(coordinate_row(), i), im(coordinate_row(), i), wp)]
+      call expect_close(maxval(abs(matmul(s**2*m + s*c + k + g - n, x))) &
+                        /maxval(abs(matmul(abs(k), abs(x)))), 0.0_wp, 1.0e-10_wp, "a mode")
+    end do
+
+  contains
+
+    !> Rows of the coordinates in a mode's motion, seven for each node.
+    pure function coordinate_row() result(row)
+      integer :: row(size(coordinate)/2)
+
+      row = 7*coordinate(1::2) + coordinate(2::2)
+    end function coordinate_row
+
+    subroutine read_matrix(name, matrix)
+      character(len=*), intent(in) :: name
+      real(wp), allocatable, intent(out) :: matrix(:, :)
+      real(wp), allocatable :: value(:)
+      integer, allocatable :: start(:), column(:), extents(:)
+      integer :: i, j
+
+      call get_integers(path, group//"matrices/"//name//"/row_start", start, extents)
+      call get_integers(path, group//"matrices/"//name//"/column", column, extents)
+      call get_reals(path, group//"matrices/"//name//"/value", value, extents)
+      allocate (matrix(size(start) - 1, size(start) - 1))
+      matrix = 0
+      do i = 1, size(start) - 1
+        do j = start(i) + 1, start(i + 1)
+          matrix(i, column(j) + 1) = value(j)
+        end do
+      end do
+    end subroutine read_matrix
+  end subroutine matrices
+
+  !> Motion of the modes, (7 nodes, modes).
+  subroutine read_motion(path, suffix, motion)
+    character(len=*), intent(in) :: path, suffix
+    real(wp), allocatable, intent(out) :: motion(:, :)
+    character(len=*), parameter :: nodes = "analysis/02_eigen/modes/nodes/"
+    real(wp), allocatable :: u(:), r(:), w(:)
+    integer, allocatable :: extents(:)
+    real(wp), allocatable :: all(:, :)
+
+    call get_reals(path, nodes//"displacement"//suffix, u, extents)
+    call get_reals(path, nodes//"rotation"//suffix, r, extents)
+    call get_reals(path, nodes//"warping"//suffix, w, extents)
+    allocate (all(7, size(w)))
+    all(1:3, :) = reshape(u, [3, size(w)])
+    all(4:6, :) = reshape(r, [3, size(w)])
+    all(7, :) = w
+    motion = reshape(all, [7*size(w)/6, 6])
+  end subroutine read_motion
+
+end module test_complex_modes
