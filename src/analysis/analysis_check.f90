@@ -1,111 +1,204 @@
-!> `spar check`: what the model is, what holds it, what it cannot resist.
+!> `spar check`: what the model is, what holds it twice, what moves freely, and whether its analyses
+!> can do with that.
 module analysis_check
   use kinds, only: wp
-  use errors, only: error_t, fail, exit_deck
-  use text, only: to_text, plural
-  use model_data, only: model_t, mode_fixed, mode_released
-  use linalg_solver, only: solver_t
+  use errors, only: error_t
+  use text, only: string_t, plural
+  use model_data, only: model_t, type_beamw, type_beam, mode_fixed, mode_flexible, joint_modes, &
+                        joint_names
   use nodal_state, only: state_t
+  use linalg_solver, only: solver_t
   use system_data, only: system_t
   use system_build, only: build_system, find_system_pattern
   use system_assembly, only: iterate_t, new_iterate, assemble
-  use system_constraints, only: drop_redundant, free_motions
-  use system_names, only: coordinate_name, strain_name
+  use system_constraints, only: drop_redundant
+  use system_dependence, only: dependence_t, find_dependences
+  use system_mobility, only: free_motion_t, find_free_motions
+  use system_names, only: coordinate_name, strain_name, node_name
   use start_assembly, only: assemble_start
+  use mode_results, only: modes_t, new_modes, add_mode, unit_factor
+  use model_sentences, only: dependence_sentence, motion_sentence, release_card, motion_name
+  use model_soundness, only: refuse_contradiction, refusal, count_line
   implicit none
   private
 
-  public :: check_model
+  public :: check_t, finding_t, check_model
+
+  !> Kinds of elements that are counted, and what is said of strains.
+  character(len=11), parameter, public :: element_names(9) = &
+    ["BEAMW      ", "BEAM       ", joint_names]
+  character(len=10), parameter, public :: status_names(0:3) = &
+    ["fixed     ", "flexible  ", "released  ", "prescribed"]
+
+  !> A redundant constraint or a free motion.
+  type :: finding_t
+    character(len=:), allocatable :: text        !< one sentence
+    character(len=:), allocatable :: name        !< strain left out, or coordinate
+    type(string_t), allocatable :: part(:)       !< strains that take part, coordinates that move
+    real(wp), allocatable :: value(:)            !< their weights, or how far they move
+    type(string_t), allocatable :: other(:)      !< fixed nodes that take part; released strains
+    character(len=:), allocatable :: card        !< that ends a redundancy, or empty
+  end type finding_t
+
+  !> What is found.
+  type :: check_t
+    integer :: nodes = 0, kind(3) = 0            !< all ids; translational, rotational, warping
+    integer :: element(size(element_names)) = 0
+    integer :: strain(0:3) = 0                   !< generalized strains by status
+    integer :: used = 0, held = 0, free = 0      !< coordinates
+    integer :: constraints = 0, redundant = 0    !< equations
+    integer :: freedoms = 0                      !< free coordinates less independent constraints
+    integer :: mobile = 0                        !< of these: free motions
+    type(finding_t), allocatable :: overconstrained(:), motion(:)   !< as many as are explained
+    type(string_t), allocatable :: defaults(:)   !< what cards of sections left to the program
+    character(len=:), allocatable :: contradiction  !< of prescribed motions; empty: none
+    character(len=:), allocatable :: refusal     !< what makes the model unsound; empty: nothing
+    type(modes_t) :: modes                       !< shapes of the free motions
+  end type check_t
+
+  integer, parameter :: most_motions = 20        !< more are counted, but not explained
 
 contains
 
-  !> Print counts, redundant constraints and free motions; an unsound model (one that moves freely)
-  !> is an error.
-  subroutine check_model(model, unit, error)
+  !> Inspect a model at its start. An unsound one is no error.
+  subroutine check_model(model, check, error)
     type(model_t), intent(in) :: model
-    integer, intent(in) :: unit
+    type(check_t), intent(out) :: check
     type(error_t), allocatable, intent(out) :: error
+    type(error_t), allocatable :: contradiction
     type(system_t) :: system
     type(state_t) :: state
     integer, allocatable :: dropped(:)
-    integer :: i, constraints
 
+    check%contradiction = ""
+    check%refusal = ""
+    allocate (check%overconstrained(0), check%motion(0))
     call build_system(model, system)
-    constraints = system%multipliers
+    check%constraints = system%multipliers
     call assemble_start(model, system, state, error)
     if (.not. allocated(error)) call drop_redundant(system, state, dropped, error)
     if (.not. allocated(error)) then
-      call print_counts(model, system, constraints, unit)
-      call print_defaults(model, unit)
-      do i = 1, size(dropped)
-        write (unit, "(a)") "overconstrained: "//strain_name(model, system, dropped(i))// &
-          " follows from other constraints"
-      end do
-      call check_motions(model, system, state, unit, error)
+      call count_parts(model, check)
+      call count_equations(system, check)
+      call list_defaults(model, check)
+      call refuse_contradiction(model, system, state, dropped, contradiction)
+      if (allocated(contradiction)) then
+        check%contradiction = contradiction%message
+        check%refusal = contradiction%message
+      end if
+      call explain_constraints(model, system, state, dropped, check, error)
+      if (.not. allocated(error)) call explain_motions(model, system, state, check, error)
     end if
     call system%free()
   end subroutine check_model
 
-  subroutine print_counts(model, system, constraints, unit)
+  !> Nodes, elements, strains.
+  pure subroutine count_parts(model, check)
     type(model_t), intent(in) :: model
-    type(system_t), intent(in) :: system
-    integer, intent(in) :: constraints, unit
-    integer :: i, fixed, released
+    type(check_t), intent(inout) :: check
+    integer :: i, k
 
-    fixed = 0
-    released = 0
-    do i = 1, size(model%member)
-      fixed = fixed + count(model%member(i)%status == mode_fixed)
-      released = released + count(model%member(i)%status == mode_released)
+    check%nodes = size(model%node)
+    do k = 1, 3
+      check%kind(k) = count(model%node%exists(k))
     end do
-    call line("nodes", size(model%node))
-    call line("elements", size(model%member))
-    call line("coordinates in use", count(system%used))
-    call line("  held by FIX or by rigid torsion (W)", count(system%used .and. system%unknown == 0))
-    call line("  free", system%unknowns)
-    call line("rigid modes of elements", fixed)
-    call line("released modes of elements", released)
-    call line("constraint equations", constraints)
-    call line("  redundant", constraints - system%multipliers)
-    call line("degrees of freedom", system%unknowns - system%multipliers)
-
-  contains
-
-    subroutine line(what, number)
-      character(len=*), intent(in) :: what
-      integer, intent(in) :: number
-
-      write (unit, "(a, t42, i9)") what, number
-    end subroutine line
-
-  end subroutine print_counts
-
-  !> What the cards of the sections left to the program.
-  subroutine print_defaults(model, unit)
-    type(model_t), intent(in) :: model
-    integer, intent(in) :: unit
-    integer :: i
-
-    do i = 1, size(model%section)
-      associate (section => model%section(i))
-        if (section%defaults /= "") write (unit, "(a)") "defaults of SECTION "// &
-          trim(section%name)//": "//section%defaults
+    do i = 1, size(model%member)
+      associate (m => model%member(i))
+        k = merge(1, 2, m%kind == type_beamw)
+        check%element(k) = check%element(k) + 1
+        call count_strains(check, merge(mode_fixed, m%status(:merge(6, 8, m%kind == type_beam)), &
+          m%rigid .and. m%status(:merge(6, 8, m%kind == type_beam)) == mode_flexible))
       end associate
     end do
-  end subroutine print_defaults
+    do i = 1, size(model%joint)
+      associate (joint => model%joint(i))
+        check%element(2 + joint%kind) = check%element(2 + joint%kind) + 1
+        call count_strains(check, joint%status(:joint_modes(joint%kind)))
+      end associate
+    end do
+  end subroutine count_parts
 
-  !> Factorize the unloaded model and name what moves without strain.
-  subroutine check_motions(model, system, state, unit, error)
+  pure subroutine count_strains(check, status)
+    type(check_t), intent(inout) :: check
+    integer, intent(in) :: status(:)
+    integer :: i
+
+    do i = 1, size(status)
+      check%strain(status(i)) = check%strain(status(i)) + 1
+    end do
+  end subroutine count_strains
+
+  !> Coordinates and equations, redundant ones left out.
+  pure subroutine count_equations(system, check)
+    type(system_t), intent(in) :: system
+    type(check_t), intent(inout) :: check
+
+    check%used = count(system%used)
+    check%held = count(system%used .and. system%unknown == 0)
+    check%free = system%unknowns
+    check%redundant = check%constraints - system%multipliers
+    check%freedoms = system%unknowns - system%multipliers
+  end subroutine count_equations
+
+  pure subroutine list_defaults(model, check)
+    type(model_t), intent(in) :: model
+    type(check_t), intent(inout) :: check
+    integer :: i, n
+
+    allocate (check%defaults(count([(model%section(i)%defaults /= "", i=1, size(model%section))])))
+    n = 0
+    do i = 1, size(model%section)
+      associate (section => model%section(i))
+        if (section%defaults == "") cycle
+        n = n + 1
+        check%defaults(n)%s = "defaults of SECTION "//trim(section%name)//": "//section%defaults
+      end associate
+    end do
+  end subroutine list_defaults
+
+  subroutine explain_constraints(model, system, state, dropped, check, error)
+    type(model_t), intent(in) :: model
+    type(system_t), intent(in) :: system
+    type(state_t), intent(in) :: state
+    integer, intent(in) :: dropped(:)
+    type(check_t), intent(inout) :: check
+    type(error_t), allocatable, intent(out) :: error
+    type(dependence_t), allocatable :: found(:)
+    integer :: i, k
+
+    call find_dependences(model, system, state, dropped, found, error)
+    if (allocated(error)) return
+    deallocate (check%overconstrained)
+    allocate (check%overconstrained(size(found)))
+    do i = 1, size(found)
+      associate (f => check%overconstrained(i), d => found(i))
+        f%text = "overconstrained"//count_line(i, size(dropped))//": "// &
+                 dependence_sentence(model, system, d)
+        f%name = strain_name(model, system, d%dropped)
+        f%card = release_card(model, system, d%release)
+        f%value = d%weight
+        allocate (f%part(size(d%strain)), f%other(size(d%held)))
+        do k = 1, size(d%strain)
+          f%part(k)%s = strain_name(model, system, d%strain(k))
+        end do
+        do k = 1, size(d%held)
+          f%other(k)%s = node_name(model, d%held(k))
+        end do
+      end associate
+    end do
+  end subroutine explain_constraints
+
+  !> Factorize the unloaded model and find what moves without strain.
+  subroutine explain_motions(model, system, state, check, error)
     type(model_t), intent(in) :: model
     type(system_t), intent(inout) :: system
     type(state_t), intent(in) :: state
-    integer, intent(in) :: unit
+    type(check_t), intent(inout) :: check
     type(error_t), allocatable, intent(out) :: error
     type(solver_t) :: solver
     type(iterate_t) :: iterate
-    integer, allocatable :: free(:)
+    type(free_motion_t), allocatable :: found(:)
     real(wp) :: level(size(model%pattern))
-    integer :: i
 
     if (system%unknowns == 0) return
     call find_system_pattern(system)
@@ -116,15 +209,64 @@ contains
     call solver%prepare(system%equations(), system%pattern%row, system%pattern%column, &
                         system%pattern%symmetric, error)
     if (.not. allocated(error)) call solver%factorize(iterate%values, error)
-    if (.not. allocated(error)) call free_motions(system, iterate, solver, free, error)
+    if (.not. allocated(error)) call find_free_motions(model, system, iterate, solver, found, error)
     call solver%free()
     if (allocated(error)) return
-    do i = 1, size(free)
-      write (unit, "(a)") "moves freely: "//coordinate_name(model, free(i))
+    check%mobile = size(found)
+    call describe_motions(model, system, found, check)
+    call keep_shapes(model, system, iterate, found, check%modes)
+    if (check%mobile == 0 .or. check%refusal /= "") return
+    check%refusal = refusal(model)
+    if (check%refusal /= "") check%refusal = "the model has "// &
+      plural(check%mobile, "free motion")//", but "//check%refusal
+  end subroutine explain_motions
+
+  subroutine describe_motions(model, system, found, check)
+    type(model_t), intent(in) :: model
+    type(system_t), intent(in) :: system
+    type(free_motion_t), intent(in) :: found(:)
+    type(check_t), intent(inout) :: check
+    integer :: i, k
+
+    deallocate (check%motion)
+    allocate (check%motion(min(size(found), most_motions)))
+    do i = 1, size(check%motion)
+      associate (f => check%motion(i), d => found(i))
+        f%text = "moves freely"//count_line(i, size(found))//": "//motion_sentence(model, system, d)
+        if (size(found) == 1) f%text = "moves freely: "//motion_sentence(model, system, d)
+        f%name = motion_name(model, system, d)
+        f%card = ""
+        f%value = d%shape(d%moves)
+        allocate (f%part(size(d%moves)), f%other(size(d%strain)))
+        do k = 1, size(d%moves)
+          f%part(k)%s = coordinate_name(model, d%moves(k))
+        end do
+        do k = 1, size(d%strain)
+          f%other(k)%s = strain_name(model, system, d%strain(k))
+        end do
+      end associate
     end do
-    if (size(free) > 0) call fail(error, exit_deck, "the model is not a structure: "// &
-                                  plural(size(free), "free motion")//" without strain")
-    if (size(free) == 0) write (unit, "(a)") "the model resists every motion"
-  end subroutine check_motions
+  end subroutine describe_motions
+
+  !> The motions as modes, the largest displacement 1.
+  subroutine keep_shapes(model, system, iterate, found, modes)
+    type(model_t), intent(in) :: model
+    type(system_t), intent(in) :: system
+    type(iterate_t), intent(in) :: iterate
+    type(free_motion_t), intent(in) :: found(:)
+    type(modes_t), intent(out) :: modes
+    real(wp) :: solution(system%equations())
+    integer :: i, k
+
+    call new_modes(system, size(found), modes)
+    do i = 1, size(found)
+      solution = 0
+      do k = 1, system%coordinates
+        if (system%unknown(k) > 0) solution(system%unknown(k)) = found(i)%shape(k)
+      end do
+      solution = unit_factor(system, solution)*solution
+      call add_mode(model, system, iterate, solution, modes)
+    end do
+  end subroutine keep_shapes
 
 end module analysis_check

@@ -26,7 +26,7 @@ module analysis_kinematic
   use motion_instant, only: instant_t, remember, go_back
   use time_grid, only: time_grid_t, new_time_grid
   use motion_bridge, only: bridge, increment_between
-  use energy_account, only: account_t, open_account, enter_step, motion_results, rate_results
+  use energy_account, only: account_t, open_account, enter_step, motion_results
   use recorder, only: recorder_t, step_t
   implicit none
   private
@@ -135,7 +135,7 @@ contains
       if (.not. grid%is_regular(stop) .and. stop < grid%stops) cycle
       course%record%step = course%record%step + 1
       course%record%time = course%time
-      course%record%size = course%time - before%time
+      course%record%size = grid%interval
       call keep(model, driven, course, recorder, error)
     end do
   end subroutine march
@@ -354,6 +354,7 @@ contains
     call go_back(before, course%time, course%level, driven%motion)
   end subroutine insist
 
+  !> Forces of KINEMATIC are without inertia: the balance of energies lacks the kinetic one.
   subroutine keep(model, driven, course, recorder, error)
     type(model_t), intent(in) :: model
     type(driven_t), intent(inout) :: driven
@@ -364,11 +365,7 @@ contains
 
     associate (motion => driven%motion)
       call strain_rates(motion%system, motion%iterate, motion%flow%velocity, motion%iterate%rate)
-      if (driven%inertia) then
-        call motion_results(model, motion, course%account, results)
-      else
-        call rate_results(model, motion, results)
-      end if
+      call motion_results(model, motion, course%account, results)
     end associate
     call recorder%step(course%record, results, error)
   end subroutine keep

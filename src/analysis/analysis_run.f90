@@ -10,10 +10,9 @@ module analysis_run
   use nodal_state, only: state_t
   use system_data, only: system_t
   use system_build, only: build_system, find_system_pattern
-  use system_assembly, only: iterate_t, new_iterate, assemble
-  use system_constraints, only: drop_redundant, free_motions
-  use system_names, only: coordinate_name, strain_name
+  use system_assembly, only: iterate_t, new_iterate
   use start_assembly, only: assemble_start
+  use model_soundness, only: warn_of_redundant, refuse_free_motion, needs_structure
   use analysis_static, only: run_static
   use analysis_arc, only: run_arc
   use mode_results, only: modes_t
@@ -42,8 +41,8 @@ module analysis_run
 
 contains
 
-  !> Build the system, check that it can stand, run all analyses; from a restart `point`, if there is
-  !> one, those that are left.
+  !> Build the system, check that it can stand, run all analyses; from a restart `point`, if there
+  !> is one, those that are left.
   subroutine run_analyses(model, recorder, error, point)
     type(model_t), intent(in) :: model
     class(recorder_t), intent(inout) :: recorder
@@ -81,23 +80,12 @@ contains
     iterate%state = state
     call solver%prepare(system%equations(), system%pattern%row, system%pattern%column, &
                         system%pattern%symmetric, error)
-    if (allocated(error) .or. .not. needs_structure(model)) return
-    call refuse_free_motion(model, system, solver, iterate, error)
-    if (any(model%analysis%kind /= analysis_static)) return
-    deallocate (system%pattern%row, system%pattern%column)  ! the solver has its own
+    if (allocated(error)) return
+    if (all(model%analysis%kind == analysis_static)) then
+      deallocate (system%pattern%row, system%pattern%column)  ! the solver has its own
+    end if
+    if (needs_structure(model)) call refuse_free_motion(model, system, solver, iterate, error)
   end subroutine set_up
-
-  !> Whether an analysis needs a structure: EIGEN and motions in time do not.
-  pure logical function needs_structure(model)
-    type(model_t), intent(in) :: model
-    integer :: i
-
-    needs_structure = .false.
-    do i = 1, size(model%analysis)
-      needs_structure = needs_structure .or. any(model%analysis(i)%kind == &
-        [analysis_static, analysis_buckling, analysis_compliance])
-    end do
-  end function needs_structure
 
   subroutine run_in_order(model, system, solver, iterate, recorder, error, point)
     type(model_t), intent(in) :: model
@@ -223,55 +211,5 @@ contains
     if (status /= 0) call fail(error, exit_io, "there is not enough memory for "// &
                                to_text(elements)//" elements")
   end subroutine check_memory
-
-  !> Redundant constraints that agree are left out, with a warning for each.
-  subroutine warn_of_redundant(model, system, state, recorder, error)
-    type(model_t), intent(in) :: model
-    type(system_t), intent(inout) :: system
-    type(state_t), intent(in) :: state
-    class(recorder_t), intent(inout) :: recorder
-    type(error_t), allocatable, intent(out) :: error
-    integer, allocatable :: dropped(:)
-    integer :: i
-
-    call drop_redundant(system, state, dropped, error)
-    if (allocated(error)) return
-    do i = 1, size(dropped)
-      call recorder%remark("warning: "//strain_name(model, system, dropped(i))// &
-                           " is fixed, but other constraints already see to that;"// &
-                           " the model is overconstrained")
-    end do
-  end subroutine warn_of_redundant
-
-  !> A structure must resist every motion: free ones are named by node and coordinate.
-  subroutine refuse_free_motion(model, system, solver, iterate, error)
-    type(model_t), intent(in) :: model
-    type(system_t), intent(in) :: system
-    type(solver_t), intent(inout) :: solver
-    type(iterate_t), intent(inout) :: iterate
-    type(error_t), allocatable, intent(out) :: error
-    integer, allocatable :: free(:)
-    character(len=:), allocatable :: list
-    real(wp) :: level(size(model%pattern))
-    integer :: i
-
-    if (system%unknowns == 0) then
-      call fail(error, exit_deck, "nothing can move: every coordinate is fixed")
-      return
-    end if
-    level = 0
-    call assemble(system, level, iterate)
-    call solver%factorize(iterate%values, error)
-    if (allocated(error)) return
-    if (size(solver%null_pivots()) == 0) return
-    call free_motions(system, iterate, solver, free, error)
-    if (allocated(error) .or. size(free) == 0) return
-    list = coordinate_name(model, free(1))
-    do i = 2, size(free)
-      list = list//", "//coordinate_name(model, free(i))
-    end do
-    call fail(error, exit_deck, "the model can move freely: "//list// &
-              "; FIX it or connect it, STATIC needs a structure")
-  end subroutine refuse_free_motion
 
 end module analysis_run

@@ -125,11 +125,11 @@ contains
         record%time = time
         call keep(model, motion, account, recorder, record, error)
         if (allocated(error)) return
-        if (recorder%wants_point()) call leave_point(error)
-        if (allocated(error)) return
       end if
       record%iterations = 0
       record%cutbacks = 0
+      if (recorder%wants_point()) call leave_point(error)
+      if (allocated(error)) return
       stop = grid%next(time)
     end do
     if (whole) call leave_point(second)
@@ -154,8 +154,8 @@ contains
 
   !> To a time, in one step or several: halved where Newton fails, and in adaptive steps chosen by
   !> their error; `h` is the length to try next.
-  subroutine reach(model, analysis, goal, slack, single, h, time, level, motion, account, recorder, &
-                   record, whole, error)
+  subroutine reach(model, analysis, goal, slack, single, h, time, level, motion, account, &
+                   recorder, record, whole, error)
     type(model_t), intent(in) :: model
     type(analysis_t), intent(in) :: analysis
     real(wp), intent(in) :: goal, slack    !< times that are no further apart are the same [T]

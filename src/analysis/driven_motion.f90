@@ -179,6 +179,7 @@ contains
         call advance(motion%system, solution, 1.0_wp, motion%iterate, change)
         outcome%last%iteration = outcome%last%iteration + 1
         moved = maxval(abs(change)/motion%scale)
+        outcome%last%increment = moved
         outcome%status = newton_diverged
         if (.not. ieee_is_finite(moved) .or. moved > far) return
         left = moved

@@ -240,6 +240,8 @@ contains
     allocate (line(modes%modes + 1))
     if (allocated(modes%multiplier)) then
       line(1)%s = "  mode     multiplier    load factor   strain energy"
+    else if (.not. allocated(modes%frequency)) then
+      line(1)%s = "  mode   strain energy"
     else
       line(1)%s = "  mode      frequency   participation of mass in X, Y, Z   strain energy"
     end if
@@ -247,6 +249,9 @@ contains
       if (allocated(modes%multiplier)) then
         write (numbers, "(i6, 2a15)") i, right(modes%multiplier(i)), right(modes%load_factor(i))
         line(i + 1)%s = numbers(:36)//"   "//mode_kind(modes%energy(:, i))
+      else if (.not. allocated(modes%frequency)) then
+        write (numbers, "(i6)") i
+        line(i + 1)%s = numbers(:6)//"   "//mode_kind(modes%energy(:, i))
       else
         line(i + 1)%s = frequency_line(modes, i)
       end if

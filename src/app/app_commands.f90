@@ -5,14 +5,16 @@ module app_commands
   use text, only: string_t, upper, quoted, plural, newline, nearest_word
   use program_version, only: program_name, version
   use diagnostics, only: report_t
-  use model_data, only: model_t
+  use model_data, only: model_t, analysis_kind_check => analysis_check
   use deck_reader, only: read_deck
   use deck_keywords, only: keywords
   use deck_modes, only: mode_check, mode_static
   use deck_manual, only: list_keywords, describe_keyword, keywords_markdown
   use analysis_run, only: run_analyses
-  use analysis_check, only: check_model
+  use analysis_check, only: check_t, check_model
+  use restart_point, only: point_t
   use output_log, only: log_quiet
+  use output_check, only: print_check, print_check_json
   use output_constants, only: print_section, print_sections_json
   use output_recorder, only: run_recorder_t, run_options_t
   use output_compare, only: compare_files
@@ -112,6 +114,7 @@ contains
     type(model_t) :: model
     type(run_recorder_t) :: recorder
     type(run_options_t) :: options
+    type(point_t), allocatable :: point
     type(error_t), allocatable :: second
 
     if (command%mode == mode_check) then
@@ -122,7 +125,8 @@ contains
     if (.not. allocated(error)) call load_deck(command, model, error)
     if (.not. allocated(error)) call recorder%open(options, model, error)
     if (allocated(error)) return
-    call run_analyses(model, recorder, error)
+    call recorder%get_point(point)
+    call run_analyses(model, recorder, error, point)
     call recorder%close(.not. allocated(error), second)
     if (.not. allocated(error)) call move_alloc(second, error)
   end subroutine run_deck
@@ -135,6 +139,7 @@ contains
     options%deck = command%argument
     options%output = command%output
     if (options%output == "") options%output = base_name(command%argument)//".h5"
+    if (command%restart /= "") options%restart = command%restart
     options%overwrite = command%overwrite
     options%progress = command%progress
     options%drawn = command%drawn
@@ -161,10 +166,46 @@ contains
     type(command_t), intent(in) :: command
     type(error_t), allocatable, intent(out) :: error
     type(model_t) :: model
+    type(check_t) :: check
 
     call load_deck(command, model, error)
-    if (.not. allocated(error)) call check_model(model, output_unit, error)
+    if (.not. allocated(error)) call check_model(model, check, error)
+    if (allocated(error)) return
+    if (command%json) then
+      call print_check_json(output_unit, command%argument, check)
+    else
+      call print_check(output_unit, check)
+    end if
+    if (command%output /= "") call write_motions(command, model, check, error)
+    if (check%refusal /= "" .and. .not. allocated(error)) call fail(error, exit_deck, check%refusal)
   end subroutine check_deck
+
+  !> The free motions as modes in a result file.
+  subroutine write_motions(command, model, check, error)
+    type(command_t), intent(in) :: command
+    type(model_t), intent(in) :: model
+    type(check_t), intent(in) :: check
+    type(error_t), allocatable, intent(out) :: error
+    type(run_recorder_t) :: recorder
+    type(run_options_t) :: options
+    type(model_t) :: shown
+    type(error_t), allocatable :: second
+
+    call get_options(command, options, error)
+    if (allocated(error)) return
+    options%level = log_quiet
+    shown = model
+    deallocate (shown%analysis)
+    allocate (shown%analysis(1))
+    shown%analysis(1)%kind = analysis_kind_check
+    shown%analysis(1)%modes = check%modes%modes
+    call recorder%open(options, shown, error)
+    if (.not. allocated(error)) call recorder%begin(1, shown%analysis(1), error)
+    if (.not. allocated(error)) call recorder%modes(check%modes, error)
+    if (.not. allocated(error)) call recorder%finish(.true., error)
+    call recorder%close(.not. allocated(error), second)
+    if (.not. allocated(error)) call move_alloc(second, error)
+  end subroutine write_motions
 
   !> spar section
   subroutine show_sections(command, error)

@@ -65,6 +65,8 @@ contains
       "                     times), 7 equilibrium, then frequencies, 8 buckling multipliers of", &
       "                     the DELXF loads upon the XF loads (of the XF loads without DELXF),", &
       "                     10 load steps (default)", &
+      "  --restart OUT.h5   go on where the TRANSIENT of a result file stopped: interrupted, or", &
+      "                     with a later TEND; the rest of the deck is to be the same", &
       "  --no-vtk           leave out the drawing for ParaView (/VTKHDF)", &
       "  --no-overwrite     refuse to replace an existing result file", &
       "  --quiet            print nothing but errors", &
@@ -72,7 +74,8 @@ contains
       "  --no-progress      no progress line on long runs", &
       "", &
       "The results stand in OUT.h5.part until the run ends. Ctrl-C keeps the steps that have", &
-      "converged, with the attribute complete = 0."
+      "converged, with the attribute complete = 0. A run with --restart writes all results, old", &
+      "and new, as if it had never stopped."
   end subroutine print_run
 
   subroutine print_check(unit)
@@ -81,7 +84,15 @@ contains
     write (unit, "(a)") &
       "spar check DECK [options]    read, check and explain a deck; exit status 3 if unsound", &
       "", &
-      "  -D NAME=VALUE      value of a name, in place of the deck's SET; may be repeated"
+      "  -D NAME=VALUE      value of a name, in place of the deck's SET; may be repeated", &
+      "  -o OUT.h5          result file for the shapes of the free motions; else none is written", &
+      "  --no-vtk           leave out their drawing for ParaView (/VTKHDF)", &
+      "  --no-overwrite     refuse to replace an existing result file", &
+      "  --json             as JSON, in full precision", &
+      "", &
+      "Unsound is a model whose analyses cannot run: with free motions where there is STATIC,", &
+      "BUCKLING, COMPLIANCE, KINEMATIC or INVERSE, or with prescribed motions that contradict", &
+      "each other. Constraints that repeat others are named, with a release that would help."
   end subroutine print_check
 
   subroutine print_section(unit)

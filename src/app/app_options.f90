@@ -23,6 +23,7 @@ module app_options
     character(len=:), allocatable :: argument  !< deck, keyword, command to explain; or empty
     character(len=:), allocatable :: output    !< -o; empty: the default
     type(setting_t), allocatable :: setting(:) !< -D
+    character(len=:), allocatable :: restart   !< --restart; empty: not given
     logical :: overwrite = .true.
     logical :: progress = .true.
     logical :: drawn = .true.                  !< with /VTKHDF
@@ -60,6 +61,7 @@ contains
     command%argument = ""
     command%output = ""
     command%name = ""
+    command%restart = ""
     allocate (command%setting(0), command%only(0))
     if (size(words) == 0) then
       call refuse("no command given", "", error)
@@ -164,7 +166,7 @@ contains
       if (option == "-D") call add_setting(value, command, error)
     case ("--no-overwrite")
       command%overwrite = .false.
-    case ("--rtol", "--atol", "--digits", "--only", "--mode")
+    case ("--rtol", "--atol", "--digits", "--only", "--mode", "--restart")
       call take_value(words, i, command, error)
     case ("--no-progress")
       command%progress = .false.
@@ -191,9 +193,10 @@ contains
     select case (action)
     case ("run")
       options = [character(len=14) :: "-h", "--help", "-D", "-o", "--no-overwrite", "--quiet", &
-                 "--verbose", "--no-progress", "--no-vtk", "--mode"]
+                 "--verbose", "--no-progress", "--no-vtk", "--mode", "--restart"]
     case ("check")
-      options = [character(len=14) :: "-h", "--help", "-D"]
+      options = [character(len=14) :: "-h", "--help", "-D", "-o", "--no-overwrite", "--no-vtk", &
+                 "--json"]
     case ("section")
       options = [character(len=14) :: "-h", "--help", "-D", "--json"]
     case ("compare")
@@ -246,6 +249,12 @@ contains
         return
       else if (option == "--mode") then
         call set_mode(word, command, error)
+        return
+      else if (option == "--restart") then
+        if (command%restart /= "") call refuse("option '--restart' is given twice", "", error, &
+                                               command%action)
+        command%restart = word
+        if (word == "") call refuse("'--restart' needs a result file", "", error, command%action)
         return
       end if
       call parse_number(word, number, status)

@@ -45,15 +45,19 @@ module model_data
   !> Kinds of analyses.
   integer, parameter, public :: analysis_static = 1, analysis_buckling = 2, analysis_eigen = 3, &
                                 analysis_transient = 4, analysis_kinematic = 5, &
-                                analysis_inverse = 6, analysis_compliance = 7
-  character(len=10), parameter, public :: analysis_names(7) = &
+                                analysis_inverse = 6, analysis_compliance = 7, &
+                                analysis_check = 8
+  character(len=10), parameter, public :: analysis_names(8) = &
     ["STATIC    ", "BUCKLING  ", "EIGEN     ", "TRANSIENT ", "KINEMATIC ", "INVERSE   ", &
-     "COMPLIANCE"]
+     "COMPLIANCE", "CHECK     "]
 
-  !> Those that follow time, and those that end with modes.
+  !> Those that follow time, those that end with modes, those that need a structure.
   integer, parameter, public :: time_analyses(3) = [analysis_transient, analysis_kinematic, &
                                                     analysis_inverse]
-  integer, parameter, public :: mode_analyses(2) = [analysis_buckling, analysis_eigen]
+  integer, parameter, public :: mode_analyses(3) = [analysis_buckling, analysis_eigen, &
+                                                    analysis_check]
+  integer, parameter, public :: structure_analyses(3) = [analysis_static, analysis_buckling, &
+                                                         analysis_compliance]
 
   !> What a STATIC analysis controls, and what it does about stability.
   integer, parameter, public :: control_load = 0, control_displacement = 1, control_arc = 2

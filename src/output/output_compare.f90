@@ -14,7 +14,8 @@ module output_compare
   public :: compare_files
 
   !> Not results: left out unless they are asked for.
-  character(len=*), parameter :: left_out(2) = ["/VTKHDF     ", "/convergence"]
+  character(len=*), parameter :: left_out(3) = ["/VTKHDF     ", "/restart    ", "/convergence"]
+  integer, parameter :: of_root = 2   !< the first of them are groups of the file itself
 
 contains
 
@@ -84,12 +85,13 @@ contains
   !> Whether a path belongs to what is left out and is not asked for by `wanted`.
   pure logical function is_left_out(path, wanted)
     character(len=*), intent(in) :: path, wanted
-    integer :: k
+    integer :: k, at
 
     is_left_out = .false.
     do k = 1, size(left_out)
-      if (index(path//"/", trim(left_out(k))//"/") > 0 .and. &
-          index(wanted//"/", trim(left_out(k))//"/") == 0) is_left_out = .true.
+      at = index(path//"/", trim(left_out(k))//"/")
+      if (at > merge(1, huge(at), k <= of_root)) cycle
+      if (at > 0 .and. index(wanted//"/", trim(left_out(k))//"/") == 0) is_left_out = .true.
     end do
   end function is_left_out
 

@@ -15,7 +15,7 @@ module output_digest
   !> entries are told from 0.
   integer, parameter :: margin = 3
 
-  character(len=*), parameter :: left_out(2) = ["/VTKHDF/     ", "/convergence/"]
+  character(len=*), parameter :: left_out(2) = ["/VTKHDF/ ", "/restart/"]
 
 contains
 
@@ -27,7 +27,7 @@ contains
     type(reader_t) :: reader
     type(string_t), allocatable :: paths(:)
     type(dataset_t) :: dataset
-    integer :: i
+    integer :: i, k
 
     call reader%open(path, error)
     if (allocated(error)) return
@@ -35,8 +35,8 @@ contains
       " of the largest entry of a dataset's columns of one dimension"
     call reader%list("", paths)
     do i = 1, size(paths)
-      if (index(paths(i)%s, trim(left_out(1))) > 0) cycle
-      if (index(paths(i)%s, trim(left_out(2))) > 0) cycle
+      if (any([(index(paths(i)%s, trim(left_out(k))) == 1, k=1, size(left_out))])) cycle
+      if (index(paths(i)%s, "/convergence/") > 0) cycle
       call reader%read(paths(i)%s, dataset, error)
       if (allocated(error)) exit
       call write_dataset(unit, dataset, digits)

@@ -1,15 +1,17 @@
 !> What HDF5 and Fortran do not offer: renaming and removing files, asking for a terminal.
 module output_files
-  use, intrinsic :: iso_c_binding, only: c_int, c_null_char, c_ptr, c_associated
+  use, intrinsic :: iso_c_binding, only: c_int, c_char, c_null_char, c_ptr, c_associated
   use errors, only: error_t, fail, exit_io
-  use output_interfaces, only: c_rename, c_remove, c_fopen, c_fclose, c_fileno, c_flock, c_isatty
+  use output_interfaces, only: c_realpath, c_rename, c_remove, c_fopen, c_fclose, c_fileno, c_flock, c_isatty
   implicit none
   private
 
   public :: file_exists, folder_exists, check_writable, check_unused, rename_file, remove_file, &
-            error_is_terminal, link_name
+            error_is_terminal, link_name, same_file
 
   integer(c_int), parameter :: lock_at_once = 6, unlock = 8   !< LOCK_EX + LOCK_NB, LOCK_UN
+
+  integer, parameter :: longest_path = 4097   !< of the system, with a zero behind
 
 contains
 
@@ -24,6 +26,24 @@ contains
 
     inquire (file=path//"/.", exist=folder_exists)
   end function folder_exists
+
+  !> Whether two paths lead to one file, which exists.
+  logical function same_file(first, second)
+    character(len=*), intent(in) :: first, second
+    character(kind=c_char) :: a(longest_path), b(longest_path)
+
+    same_file = c_associated(c_realpath(first//c_null_char, a))
+    if (same_file) same_file = c_associated(c_realpath(second//c_null_char, b))
+    if (same_file) same_file = all(a(:zero(a)) == b(:zero(a)))
+  end function same_file
+
+  pure integer function zero(text)
+    character(kind=c_char), intent(in) :: text(:)
+
+    do zero = 1, size(text) - 1
+      if (text(zero) == c_null_char) exit
+    end do
+  end function zero
 
   !> Try to open a file for writing, which makes it if it is new, for the system's own words.
   subroutine check_writable(path, error)

@@ -99,6 +99,8 @@ contains
     else if (reader%has(group//"/frequency")) then
       info%modes = rows(reader, group//"/frequency")
       call read_one(reader, group//"/frequency", 1, "first frequency", info, error)
+    else if (reader%has(group//"/modes/energy")) then
+      info%modes = rows(reader, group//"/modes/energy")
     end if
   end subroutine read_analysis
 
@@ -155,7 +157,7 @@ contains
 
     line = a%group//"  "//a%kind
     select case (a%kind)
-    case ("buckling", "eigen")
+    case ("buckling", "eigen", "check")
       line = line//", "//plural(a%modes, "mode")
     case ("compliance")
     case default

@@ -4,10 +4,18 @@ module output_interfaces
   implicit none
   private
 
-  public :: c_rename, c_remove, c_fopen, c_fclose, c_fileno, c_flock, c_isatty, c_memcpy, &
+  public :: c_realpath, c_rename, c_remove, c_fopen, c_fclose, c_fileno, c_flock, c_isatty, c_memcpy, &
             c_setenv, c_unsetenv
 
   interface
+    !> The path without links, dots and the like; null if there is nothing.
+    type(c_ptr) function c_realpath(path, resolved) bind(c, name="realpath")
+      import :: c_char, c_ptr
+      implicit none
+      character(kind=c_char), intent(in) :: path(*)
+      character(kind=c_char), intent(out) :: resolved(*)
+    end function c_realpath
+
     integer(c_int) function c_rename(from, to) bind(c, name="rename")
       import :: c_int, c_char
       implicit none

@@ -9,6 +9,7 @@ module output_log
   use program_version, only: program_name, version
   use recorder, only: step_t, iteration_t, compliance_line
   use mode_results, only: modes_t, mode_lines
+  use restart_point, only: point_t
   use system_results, only: results_t
   use output_progress, only: progress_t, seconds_since, time_line
   implicit none
@@ -50,7 +51,10 @@ module output_log
     character(len=20), allocatable :: node(:)
     type(summary_t), allocatable :: summary(:)
     integer :: analyses = 0
+    integer :: first = 1                !< analysis of this run
+    integer :: resumed = 0              !< steps of it that an earlier run has made
   contains
+    procedure :: resume
     procedure :: open => open_log
     procedure :: begin => begin_analysis
     procedure :: iteration => log_iteration
@@ -89,6 +93,27 @@ contains
              "element")//", "//plural(size(model%section), "section")//", "// &
              plural(size(model%material), "material"))
   end subroutine open_log
+
+  !> The run goes on from a point of another one.
+  subroutine resume(self, path, point)
+    class(run_log_t), intent(inout) :: self
+    character(len=*), intent(in) :: path       !< of the file
+    type(point_t), intent(in) :: point
+    real(wp) :: square(size(point%state%warping))
+
+    square = sum(point%state%displacement**2, 1)
+    self%first = point%analysis
+    self%resumed = point%states - 1
+    self%last%time = point%time
+    associate (summary => self%summary(point%analysis))
+      summary%steps = self%resumed
+      summary%factor = point%time
+      summary%where = maxloc(square, 1)
+      summary%largest = sqrt(square(summary%where))
+    end associate
+    call say(self, "Goes on from "//path//" at time "//to_text(point%time)//" of analysis "// &
+             to_text(point%analysis)//", behind "//plural(point%states, "state"))
+  end subroutine resume
 
   !> A line on standard output; who no longer listens is no error.
   subroutine say(self, line)
@@ -130,6 +155,10 @@ contains
       end if
       summary%in_time = self%in_time
     end associate
+    if (self%in_time .and. .not. self%last%time < self%end_time) then
+      call say(self, "          is already at its end")
+      return
+    end if
     if (any([mode_analyses, analysis_compliance] == analysis%kind)) return
     if (self%level == log_verbose) then
       call say(self, "    step   "//progress_name(self)//"   iteration   residual   increment")
@@ -319,6 +348,7 @@ contains
     logical, intent(in) :: complete
 
     self%summary(self%analyses)%complete = complete
+    self%resumed = 0
     call self%progress%hide()
     call print_row(self)
   end subroutine finish_analysis
@@ -332,15 +362,15 @@ contains
     call self%progress%hide()
     if (self%analyses > 0) then
       width = 8
-      do i = 1, self%analyses
+      do i = self%first, self%analyses
         width = max(width, len(self%summary(i)%name))
       end do
       call say(self, "")
       call say(self, "Analysis"//repeat(" ", width - 8)//"   steps"// &
                merge("  factor, time", "   load factor", &
-                     any(self%summary(:self%analyses)%in_time))// &
+                     any(self%summary(self%first:self%analyses)%in_time))// &
                "   iterations   cut-backs   largest displacement")
-      do i = 1, self%analyses
+      do i = self%first, self%analyses
         call say(self, summary_row(self, self%summary(i), width))
       end do
     end if
@@ -398,7 +428,7 @@ contains
     if (.not. self%progress%due(long_pause)) return
     associate (summary => self%summary(self%analyses))
       call self%progress%show(summary%name//": "//time_line(self%start_time, self%last%time, &
-        self%end_time, summary%steps, seconds_since(self%begun)))
+        self%end_time, summary%steps - self%resumed, seconds_since(self%begun)))
     end associate
   end subroutine show_time
 

@@ -1,4 +1,4 @@
-!> Modes of BUCKLING and EIGEN in the result file.
+!> Modes of BUCKLING and EIGEN, and free motions found by CHECK, in the result file.
 module output_modes
   use mode_results, only: modes_t
   use system_results, only: result_modes
@@ -16,10 +16,11 @@ contains
     character(len=*), intent(in) :: group
     type(modes_t), intent(in) :: modes
 
-    call file%set_number(group, "spectrum_complete", merge(1, 0, modes%complete))
     if (allocated(modes%multiplier)) then
+      call file%set_number(group, "spectrum_complete", merge(1, 0, modes%complete))
       call write_multipliers(file, group, modes)
-    else
+    else if (allocated(modes%frequency)) then
+      call file%set_number(group, "spectrum_complete", merge(1, 0, modes%complete))
       call write_frequencies(file, group, modes)
     end if
     call write_nodes(file, group//"/modes", modes)

@@ -1,7 +1,8 @@
 !> Reads result files: which datasets there are, what they hold, attributes.
 module output_reader
   use, intrinsic :: iso_c_binding, only: c_ptr, c_loc, c_char, c_int, c_null_char
-  use hdf5, only: hid_t, hsize_t, size_t, h5open_f, h5eset_auto_f, h5fopen_f, h5fclose_f, &
+  use hdf5, only: hid_t, hsize_t, size_t, h5dont_atexit_f, h5open_f, h5eset_auto_f, h5fopen_f, &
+                  h5fclose_f, &
                   h5dopen_f, h5dclose_f, h5dread_f, h5dget_space_f, h5dget_type_f, h5sclose_f, &
                   h5sget_simple_extent_ndims_f, h5sget_simple_extent_dims_f, h5tclose_f, &
                   h5tget_class_f, h5tget_size_f, h5oopen_f, h5oclose_f, h5aexists_by_name_f, &
@@ -36,9 +37,8 @@ module output_reader
   end type dataset_t
 
   type :: reader_t
-    private
     integer(hid_t) :: file = -1
-    character(len=:), allocatable, public :: path
+    character(len=:), allocatable :: path
   contains
     procedure :: open => open_file
     procedure :: close => close_file
@@ -83,6 +83,7 @@ contains
     end if
     call get_environment_variable(locking, status=unset)
     if (unset /= 0) ignored = c_setenv(locking//c_null_char, "FALSE"//c_null_char, 1_c_int)
+    call h5dont_atexit_f(status)
     call h5open_f(status)
     call h5eset_auto_f(0, status)
     call h5fopen_f(path, h5f_acc_rdonly_f, self%file, status)

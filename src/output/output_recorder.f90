@@ -6,6 +6,8 @@ module output_recorder
   use system_results, only: results_t
   use recorder, only: recorder_t, step_t, iteration_t, critical_t, critical_line
   use mode_results, only: modes_t
+  use restart_point, only: point_t
+  use output_source, only: source_t
   use output_results, only: result_file_t
   use output_log, only: run_log_t, log_normal
   use output_signals, only: signal_watch_t
@@ -17,6 +19,7 @@ module output_recorder
   !> What the user may choose.
   type :: run_options_t
     character(len=:), allocatable :: deck, output   !< paths
+    character(len=:), allocatable :: restart        !< file to go on from; not allocated: none
     logical :: overwrite = .true.
     logical :: progress = .true.
     logical :: drawn = .true.                       !< with /VTKHDF
@@ -29,7 +32,9 @@ module output_recorder
     type(result_file_t) :: file
     type(run_log_t) :: log
     type(signal_watch_t) :: signals
+    type(source_t), allocatable :: source           !< what the run goes on from, until it does
   contains
+    procedure :: get_point
     procedure :: open => open_recorder
     procedure :: close => close_recorder
     procedure :: begin => record_begin
@@ -39,6 +44,8 @@ module output_recorder
     procedure :: modes => record_modes
     procedure :: critical_point => record_critical
     procedure :: compliance => record_compliance
+    procedure :: wants_point => ask_point
+    procedure :: keep_point => record_point
     procedure :: finish => record_finish
     procedure :: interrupted => ask_interrupted
   end type run_recorder_t
@@ -54,10 +61,24 @@ contains
 
     self%path = options%output
     call self%signals%start()
-    call self%file%open(options%output, options%overwrite, options%drawn, model, error)
+    if (allocated(options%restart)) then
+      allocate (self%source)
+      call self%source%open(options%restart, error)
+      if (allocated(error)) return
+    end if
+    call self%file%open(options%output, options%overwrite, options%drawn, model, error, self%source)
     if (allocated(error)) return
     call self%log%open(options%level, options%progress, options%deck, model)
+    if (allocated(self%source)) call self%log%resume(options%restart, self%source%point)
   end subroutine open_recorder
+
+  !> Where the run is to go on; not allocated: at its start.
+  subroutine get_point(self, point)
+    class(run_recorder_t), intent(in) :: self
+    type(point_t), allocatable, intent(out) :: point
+
+    if (allocated(self%source)) allocate (point, source=self%source%point)
+  end subroutine get_point
 
   !> End the result file and print the summary.
   subroutine close_recorder(self, complete, error)
@@ -81,7 +102,10 @@ contains
     type(error_t), allocatable, intent(out) :: error
 
     call self%log%begin(number, analysis)
-    call self%file%begin(number, analysis, error)
+    call self%file%begin(number, analysis, error, self%source)
+    if (.not. allocated(self%source)) return
+    call self%source%reader%close()
+    deallocate (self%source)
   end subroutine record_begin
 
   subroutine record_iteration(self, iteration)
@@ -135,6 +159,20 @@ contains
     call self%file%compliance(node, matrix, error)
     if (.not. allocated(error)) call self%log%compliance(node, matrix)
   end subroutine record_compliance
+
+  logical function ask_point(self)
+    class(run_recorder_t), intent(inout) :: self
+
+    ask_point = self%file%wants_point()
+  end function ask_point
+
+  subroutine record_point(self, point, error)
+    class(run_recorder_t), intent(inout) :: self
+    type(point_t), intent(in) :: point
+    type(error_t), allocatable, intent(out) :: error
+
+    call self%file%keep_point(point, error)
+  end subroutine record_point
 
   subroutine record_finish(self, complete, error)
     class(run_recorder_t), intent(inout) :: self

@@ -1,6 +1,7 @@
 !> The datasets of an analysis that grow step by step. In time they are written in blocks, and hold
 !> what OUTPUT keeps of nodes and elements.
 module output_steps
+  use hdf5, only: hid_t
   use kinds, only: wp, i8
   use model_data, only: model_t, analysis_t, name_length, components
   use recorder, only: step_t
@@ -48,6 +49,8 @@ module output_steps
     procedure :: prepare
     procedure :: begin
     procedure :: append => append_step
+    procedure :: copy => copy_steps
+    procedure :: keeps_all
     procedure :: finish
   end type step_tables_t
 
@@ -310,6 +313,41 @@ contains
     self%pending = modulo(self%pending + 1, self%block)
     written = self%pending == 0
   end subroutine append_step
+
+  !> Whether the present analysis keeps all nodes and elements.
+  pure logical function keeps_all(self)
+    class(step_tables_t), intent(in) :: self
+
+    keeps_all = self%now%node%all .and. self%now%member%all
+  end function keeps_all
+
+  !> Begin with the steps of the same analysis in another file.
+  subroutine copy_steps(self, file, source, group, steps)
+    class(step_tables_t), intent(inout) :: self
+    type(hdf5_file_t), intent(inout) :: file
+    integer(hid_t), intent(in) :: source        !< the other file
+    character(len=*), intent(in) :: group       !< of the analysis there
+    integer, intent(in) :: steps
+    integer :: i
+
+    do i = 1, tables
+      call copy_one(self%table(i))
+    end do
+    do i = 1, size(self%marker)
+      call copy_one(self%marker_table(i))
+    end do
+    self%pending = modulo(steps, self%block)
+
+  contains
+
+    subroutine copy_one(table)
+      type(table_t), intent(inout) :: table
+
+      if (.not. allocated(table%path)) return
+      call table%copy(file, source, group//table%path(len(self%group) + 1:), steps, self%steps)
+    end subroutine copy_one
+
+  end subroutine copy_steps
 
   subroutine append_numbers(table, file, step)
     type(table_t), intent(inout) :: table(:)

@@ -14,8 +14,10 @@ module output_tables
                   h5t_std_i64le, h5t_native_real, h5kind_to_type, h5_integer_kind, &
                   h5tget_size_f
   use kinds, only: wp, sp, i8
+  use errors, only: fail, exit_io
   use output_interfaces, only: c_memcpy
   use output_hdf5, only: hdf5_file_t, about_t
+  use output_slab, only: read_slab
   implicit none
   private
 
@@ -27,8 +29,11 @@ module output_tables
   !> Pieces kept in memory, of which only the last is needed: little memory for many datasets.
   integer(size_t), parameter :: slots = 31, kept = 4*piece
 
+  integer(i8), parameter :: copied_bytes = 2_i8**21   !< at once, about
+
   type :: table_t
     private
+    character(len=:), allocatable, public :: path
     integer(hid_t) :: dataset = 0           !< 0: not started
     integer(hid_t) :: given = 0             !< type in memory
     integer :: width = 0                    !< bytes of a row in memory
@@ -37,9 +42,11 @@ module output_tables
     integer(hsize_t) :: rows = 0            !< in the file
     integer :: block = 1, appends = 0       !< written together, and of them in `buffer`
     integer :: kept_rows = 0                !< in `buffer`
+    integer(i8) :: expected = 0             !< rows, when it was started
     integer(i1), allocatable :: buffer(:)
   contains
     procedure :: gather
+    procedure :: copy
     procedure :: write => write_kept
     procedure :: start_integers
     procedure :: start_reals
@@ -130,6 +137,8 @@ contains
     call h5tget_size_f(given, bytes, status)
     self%given = given
     self%width = int(self%columns*bytes)
+    self%expected = rows
+    self%path = path
     chunk = [self%columns, max(1_hsize_t, min(rows, piece/(bytes_of_real*self%columns)))]
     largest = [self%columns, h5s_unlimited_f]
     call h5pcreate_f(h5p_dataset_create_f, list, status)
@@ -309,6 +318,35 @@ contains
     call h5sclose_f(in_memory, status)
     call h5sclose_f(in_file, status)
   end subroutine write_rows
+
+  !> Begin with what the same table of another file begins with: of `appends` appends, of which
+  !> as many were `expected` as rows when it was started.
+  subroutine copy(self, file, source, path, appends, expected)
+    class(table_t), intent(inout), target :: self
+    type(hdf5_file_t), intent(inout) :: file
+    integer(hid_t), intent(in) :: source        !< the other file
+    character(len=*), intent(in) :: path        !< of the dataset in it
+    integer, intent(in) :: appends
+    integer(i8), intent(in) :: expected
+    integer(i8) :: rows, done, part
+    integer :: status
+
+    if (self%dataset == 0 .or. allocated(file%failure)) return
+    rows = appends*(self%expected/expected)
+    done = 0
+    do while (done < rows)
+      part = min(rows - done, max(1_i8, copied_bytes/self%width))
+      allocate (self%buffer(part*self%width))
+      call read_slab(source, path, self%given, int(self%columns), done, part, c_loc(self%buffer), &
+                     status)
+      if (status < 0) call fail(file%failure, exit_io, "cannot go on with '"//path// &
+                                "': it does not fit the deck, or is not whole")
+      call write_rows(self, file, int(part), c_loc(self%buffer))
+      deallocate (self%buffer)
+      done = done + part
+    end do
+    self%appends = modulo(appends, self%block)
+  end subroutine copy
 
   !> Write what is kept and close the dataset.
   subroutine finish(self, file)

@@ -60,6 +60,7 @@ module output_vtkhdf
     procedure :: add_modes
     procedure :: add_critical
     procedure :: end_analysis
+    procedure :: add_drawn
     procedure :: write_pending
   end type vtk_writer_t
 
@@ -325,6 +326,28 @@ contains
     end do
     call write_pending(self, file)
   end subroutine draw_modes
+
+  !> A step that was drawn for another file of the same model. `points`: those of the steps from
+  !> here on about set number `set`, if that is new; none else.
+  subroutine add_drawn(self, file, number, row, set, points, motion, turn, stress, force)
+    class(vtk_writer_t), intent(inout) :: self
+    type(hdf5_file_t), intent(inout) :: file
+    integer, intent(in) :: number, row
+    integer(i8), intent(in) :: set
+    real(wp), intent(in), contiguous :: points(:, :)
+    real(wp), intent(in) :: motion(:, :), turn(:, :), stress(:), force(:, :)
+
+    if (.not. self%active) return
+    if (set == self%point_sets) then
+      call self%point_table%append(file, points)
+      self%point_sets = set + 1
+    end if
+    self%motion = motion
+    self%turn = turn
+    self%stress = real(stress, sp)
+    self%force = real(force, sp)
+    call add_step(self, file, number, row, set)
+  end subroutine add_drawn
 
   !> The points of a deformed state, for the modes about it; `set`: its number, 0 if undeformed.
   subroutine add_points(self, file, set)

@@ -5,6 +5,7 @@ module system_constraints
   use nodal_state, only: state_t, node_coordinates
   use element_base, only: element_t
   use linalg_dense, only: rank_revealing
+  use linalg_rank, only: dependent_rows
   use linalg_solver, only: solver_t
   use system_data, only: system_t
   use system_build, only: number_multipliers
@@ -13,6 +14,7 @@ module system_constraints
   private
 
   public :: drop_redundant, free_motions, coordinate_scale
+  public :: scaled_jacobian, null_vector, is_rigid, resisted
 
   !> A constraint row depends on others if what is left of it is this small: round-off of sums of
   !> some ten products leaves 1e-15, rows that differ by design 1e-6 and more.
@@ -51,7 +53,8 @@ contains
     if (system%multipliers <= dense_rows) then
       call dense_dependent(system, row, column, values, dependent)
     else
-      call sparse_dependent(system, row, column, values, dependent, error)
+      call dependent_rows(system%multipliers, system%unknowns, row, column, values, &
+                          dependent_tolerance, dependent, error)
       if (allocated(error)) return
     end if
     strain = pack([(k, k=1, size(system%multiplier))], system%multiplier > 0)
@@ -91,16 +94,10 @@ contains
     type(state_t), intent(in) :: state
     integer, intent(inout) :: row(:), column(:), n
     real(wp), intent(inout) :: values(:)
-    real(wp) :: strain(element%strains), jacobian(element%strains, element%coordinates)
-    real(wp) :: unused(element%coordinates, element%coordinates), largest
+    real(wp) :: jacobian(element%strains, element%coordinates), largest
     integer :: i, j
-    logical :: valid
 
-    strain = 0
-    call element%evaluate(state, strain*0, strain, jacobian, unused, valid)
-    do j = 1, element%coordinates
-      jacobian(:, j) = jacobian(:, j)*coordinate_scale(system, element%coordinate(j))
-    end do
+    call scaled_jacobian(system, element, state, jacobian)
     do i = 1, element%strains
       associate (at => system%multiplier(system%first(e) + i))
         if (at == 0) cycle
@@ -116,6 +113,24 @@ contains
       end associate
     end do
   end subroutine element_entries
+
+  !> The Jacobian of an element in scaled coordinates.
+  pure subroutine scaled_jacobian(system, element, state, jacobian)
+    type(system_t), intent(in) :: system
+    class(element_t), intent(in) :: element
+    type(state_t), intent(in) :: state
+    real(wp), intent(out) :: jacobian(element%strains, element%coordinates)
+    real(wp) :: strain(element%strains), none(element%strains)
+    real(wp) :: unused(element%coordinates, element%coordinates)
+    integer :: j
+    logical :: valid
+
+    none = 0
+    call element%evaluate(state, none, strain, jacobian, unused, valid)
+    do j = 1, element%coordinates
+      jacobian(:, j) = jacobian(:, j)*coordinate_scale(system, element%coordinate(j))
+    end do
+  end subroutine scaled_jacobian
 
   subroutine dense_dependent(system, row, column, values, dependent)
     type(system_t), intent(in) :: system
@@ -141,29 +156,6 @@ contains
     end do
     call rank_revealing(a, dependent_tolerance, dependent)
   end subroutine dense_dependent
-
-  !> Null pivots of [1, C'; C, 0]: its null vectors are (0, y) with C'y = 0, so the null pivots are
-  !> multipliers, as many as dependent rows, and without them the rows are independent.
-  subroutine sparse_dependent(system, row, column, values, dependent, error)
-    type(system_t), intent(in) :: system
-    integer, intent(in) :: row(:), column(:)
-    real(wp), intent(in) :: values(:)
-    integer, allocatable, intent(out) :: dependent(:)
-    type(error_t), allocatable, intent(out) :: error
-    type(solver_t) :: solver
-    integer :: n, i
-
-    n = system%unknowns
-    call solver%prepare(n + system%multipliers, [(i, i=1, n), row + n], [(i, i=1, n), column], &
-                        .true., error)
-    if (.not. allocated(error)) call solver%factorize([(1.0_wp, i=1, n), values], error)
-    dependent = [integer ::]
-    if (.not. allocated(error)) then
-      dependent = solver%null_pivots() - n
-      dependent = pack(dependent, dependent > 0)
-    end if
-    call solver%free()
-  end subroutine sparse_dependent
 
   !> Coordinates that stand for motions without strain, from the null pivots of a factorized
   !> matrix of an unloaded state: of each null vector the coordinate that moves most.

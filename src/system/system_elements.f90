@@ -14,7 +14,7 @@ module system_elements
   implicit none
   private
 
-  public :: make_elements
+  public :: make_elements, number_releases
 
 contains
 

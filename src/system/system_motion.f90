@@ -91,18 +91,21 @@ contains
     call derivatives(system, level, system%timed, target, velocity, acceleration)
   end subroutine target_rates
 
-  !> Derivative of the targets to the level of one pattern, by strain.
-  pure subroutine target_direction(system, level, pattern, direction)
+  !> Derivative of the targets to the level of one pattern, by strain, and their second one.
+  pure subroutine target_direction(system, level, pattern, direction, curvature)
     type(system_t), intent(in) :: system
     real(wp), intent(in) :: level(:)
     integer, intent(in) :: pattern
     real(wp), intent(out) :: direction(:)
+    real(wp), intent(out), optional :: curvature(:)
     real(wp) :: target(size(direction)), second(size(direction))
     integer :: p
 
     direction = 0
-    if (size(system%drive) == 0) return
-    call derivatives(system, level, [(p == pattern, p=1, size(level))], target, direction, second)
+    second = 0
+    if (size(system%drive) > 0) call derivatives( &
+      system, level, [(p == pattern, p=1, size(level))], target, direction, second)
+    if (present(curvature)) curvature = second
   end subroutine target_direction
 
   !> Targets and their first and second derivatives to the levels of the patterns marked, which

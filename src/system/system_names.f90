@@ -7,7 +7,8 @@ module system_names
   implicit none
   private
 
-  public :: node_name, member_name, coordinate_name, strain_name
+  public :: node_name, member_name, coordinate_name, strain_name, locate_strain
+  public :: element_number
 
   character(len=2), parameter, public :: component_name(node_coordinates) = &
     ["X ", "Y ", "Z ", "RX", "RY", "RZ", "W "]
@@ -72,11 +73,7 @@ contains
     character(len=:), allocatable :: name
     integer :: e, mode
 
-    e = 1
-    do while (system%first(e + 1) < strain)
-      e = e + 1
-    end do
-    mode = strain - system%first(e)
+    call locate_strain(system, strain, e, mode)
     if (e <= system%members) then
       name = member_name(model, e)//" mode "//to_text(mode)//" ("//trim(mode_name(mode))//")"
     else if (e <= system%members + system%joints) then
@@ -111,5 +108,40 @@ contains
     name = coordinate_name(model, coordinate_number(node, i))
     if (model%node(node)%fixed(i)) name = "the fixed rotation of "//node_name(model, node)
   end function held_name
+
+  !> The element of a strain, and its number there.
+  pure subroutine locate_strain(system, strain, e, mode)
+    type(system_t), intent(in) :: system
+    integer, intent(in) :: strain
+    integer, intent(out) :: e, mode
+    integer :: last, middle
+
+    e = 1
+    last = size(system%element)
+    do while (e < last)
+      middle = (e + last)/2
+      if (system%first(middle + 1) < strain) then
+        e = middle + 1
+      else
+        last = middle
+      end if
+    end do
+    mode = strain - system%first(e)
+  end subroutine locate_strain
+
+  !> "3", "5.2": how cards call an element; empty if none made it.
+  pure function element_number(model, system, e) result(name)
+    type(model_t), intent(in) :: model
+    type(system_t), intent(in) :: system
+    integer, intent(in) :: e
+    character(len=:), allocatable :: name
+
+    name = ""
+    if (e <= system%members) then
+      name = with_part(model%member(e)%id, model%member(e)%part)
+    else if (e <= system%members + system%joints) then
+      name = to_text(model%joint(e - system%members)%id)
+    end if
+  end function element_number
 
 end module system_names

@@ -20,6 +20,7 @@ program run_tests
   use test_beamw_inertia, only: run_beamw_inertia_tests
   use test_inertia_tangent, only: run_inertia_tangent_tests
   use test_rotating_inertia, only: run_rotating_inertia_tests
+  use test_check, only: run_check_tests
   use test_column_vibration, only: run_column_vibration_tests
   use test_static, only: run_static_tests
   use test_dead_loads, only: run_dead_loads_tests
@@ -31,6 +32,10 @@ program run_tests
   use test_linalg_eigen, only: run_linalg_eigen_tests
   use test_buckling, only: run_buckling_tests
   use test_eigen, only: run_eigen_tests
+  use test_transient_rigid, only: run_transient_rigid_tests
+  use test_transient_flexible, only: run_transient_flexible_tests
+  use test_transient_power, only: run_transient_power_tests
+  use test_transient_start, only: run_transient_start_tests
   use test_output_hdf5, only: run_output_hdf5_tests
   use test_output_results, only: run_output_results_tests
   use test_output_compare, only: run_output_compare_tests
@@ -39,6 +44,7 @@ program run_tests
   use test_output_history, only: run_output_history_tests
   use test_output_drawn, only: run_output_drawn_tests
   use test_program, only: run_program_tests
+  use test_restart, only: run_restart_tests
   use test_deck_sections, only: run_deck_sections_tests
   use test_section_command, only: run_section_command_tests
   use test_manual, only: run_manual_tests
@@ -74,11 +80,16 @@ program run_tests
   call run_start_assembly_tests()
   call run_start_velocity_tests()
   call run_limits_tests()
+  call run_check_tests()
   call run_path_tests()
   call run_stability_tests()
   call run_linalg_eigen_tests()
   call run_buckling_tests()
   call run_eigen_tests()
+  call run_transient_rigid_tests()
+  call run_transient_flexible_tests()
+  call run_transient_power_tests()
+  call run_transient_start_tests()
   call run_output_hdf5_tests()
   call run_output_results_tests()
   call run_output_compare_tests()
@@ -87,6 +98,7 @@ program run_tests
   call run_output_history_tests()
   call run_output_drawn_tests()
   call run_program_tests()
+  call run_restart_tests()
   call run_deck_sections_tests()
   call run_section_command_tests()
   call run_manual_tests()

@@ -66,6 +66,7 @@ contains
                           "acceleration")
         call expect_close(now%joint_strain(1, 1), (i - 1)*pi/180, 1.0e-12_wp, "angle of the crank")
         call expect_close(now%joint_rate(1, 1), w, 1.0e-10_wp*w, "its rate")
+        call expect(size(now%energy) == 6 .and. size(now%momentum) == 6, "energies and momentum")
       end associate
       call expect_close(memory%record(i)%time, (i - 1)*pi/180/w, 1.0e-12_wp/w, "time")
       call expect(memory%record(i)%last%constraint <= 1.0e-12_wp, "constraints hold")

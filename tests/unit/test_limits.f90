@@ -2,6 +2,7 @@
 !> interrupted.
 module test_limits
   use kinds, only: wp
+  use text, only: to_text
   use check, only: run, expect, expect_close
   use errors, only: error_t, exit_deck, exit_solve, exit_interrupt
   use model_data, only: model_t
@@ -51,8 +52,11 @@ contains
     call solve("redundant", memory, model)
     call expect(size(memory%remarks) == 6, "six warnings")
     do i = 1, size(memory%remarks)
-      call expect(index(memory%remarks(i)%s, "warning: element 3 mode ") == 1, &
-                  "element 3 named, got "//memory%remarks(i)%s)
+      call expect(index(memory%remarks(i)%s, "warning: overconstrained, "//to_text(i)// &
+                        " of 6: element ") == 1, memory%remarks(i)%s)
+      call expect(index(memory%remarks(i)%s, "element 3 mode ") > 0 .and. &
+                  index(memory%remarks(i)%s, "; RLSE ") > 0, "element 3 named, a release: "// &
+                  memory%remarks(i)%s)
     end do
     if (memory%steps == 0) return
     call expect_close(memory%results(1)%displacement(3, node(model, 4)), 8.0e-6_wp/(3*1000*2), &

@@ -101,7 +101,7 @@ contains
     call expect_status("run "//deck//" -D steps=3 -Dsteps=4", 2, outcome)
     call expect_status("run "//deck//" --quiet --verbose", 2, outcome)
     call expect_status("run "//deck//" --mode 7", 2, outcome)
-    call expect_status("check "//deck//" -o a.h5", 2, outcome)
+    call expect_status("check "//deck//" --verbose", 2, outcome)
     call expect_status("run "//deck//" -o "//deck, 2, outcome)
     call expect_text(outcome%errors, "replace the deck")
     call expect_status("keywords BEAMV", 2, outcome)
