@@ -80,11 +80,10 @@ contains
     iterate%state = state
     call solver%prepare(system%equations(), system%pattern%row, system%pattern%column, &
                         system%pattern%symmetric, error)
-    if (allocated(error)) return
-    if (all(model%analysis%kind == analysis_static)) then
-      deallocate (system%pattern%row, system%pattern%column)  ! the solver has its own
-    end if
-    if (needs_structure(model)) call refuse_free_motion(model, system, solver, iterate, error)
+    if (allocated(error) .or. .not. needs_structure(model)) return
+    call refuse_free_motion(model, system, solver, iterate, error)
+    if (any(model%analysis%kind /= analysis_static)) return
+    deallocate (system%pattern%row, system%pattern%column)  ! the solver has its own
   end subroutine set_up
 
   subroutine run_in_order(model, system, solver, iterate, recorder, error, point)
