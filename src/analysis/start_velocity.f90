@@ -331,7 +331,8 @@ contains
         call strain_condition(self, e, i, held)
         found = dot_product(held%factor, velocity(held%coordinate))
         tolerance = agreed*(abs(rate(k)) + dot_product(abs(held%factor), &
-                                                       abs(velocity(held%coordinate))))
+                                                       abs(velocity(held%coordinate)))) &
+                    + settled*maxval(abs(held%factor))*maxval(abs(velocity))
         if (abs(found - rate(k)) <= tolerance) cycle
         call fail(error, exit_deck, "the prescribed motions contradict each other at the "// &
                   "start: "//strain_name(model, self%system, k)//" should change at a rate of "// &

@@ -58,9 +58,9 @@ module output_vtkhdf
     procedure :: start
     procedure :: add_state
     procedure :: add_modes
+    procedure :: add_drawn
     procedure :: add_critical
     procedure :: end_analysis
-    procedure :: add_drawn
     procedure :: write_pending
   end type vtk_writer_t
 

@@ -127,7 +127,7 @@ contains
 
     exact = swing(g, 4.0_wp)
     do k = 1, 6
-      call follow("adaptive", motion, model, [setting("tol", 10.0_wp**(-k - 1))])
+      call follow("adaptive", motion, model, [setting("tol", 10.0_wp**(-k - 2))])
       call expect(motion%steps == 41, "a result each 0.1 s")
       if (motion%steps /= 41) return
       call expect_close(motion%time(:41), [(0.1_wp*i, i=0, 40)], 1.0e-12_wp, "times of results")
