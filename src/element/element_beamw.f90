@@ -110,9 +110,13 @@ contains
     valid = k%valid
     if (.not. valid) return
     call beamw_strains(self%constants, k, strain, weight, b)
-    call beamw_geometric(self%constants, k, stress, weight, g)
     call expand_columns(b, jacobian(:, 1:14))
-    call expand_square(g, geometric(1:14, 1:14))
+    if (any(abs(stress) > 0)) then
+      call beamw_geometric(self%constants, k, stress, weight, g)
+      call expand_square(g, geometric(1:14, 1:14))
+    else
+      geometric(1:14, 1:14) = 0
+    end if
     if (size(self%released) > 0) then
       call add_releases(self%constants, self%released, k, stress, weight, jacobian, geometric)
     end if

@@ -5,7 +5,7 @@
 module system_assembly
   use kinds, only: wp
   use nodal_state, only: state_t, new_state, coordinate_number, node_coordinates
-  use element_base, only: element_t
+  use element_base, only: element_t, max_strains, max_coordinates
   use system_data, only: system_t
   use system_pattern, only: add_block
   use system_loads, only: add_loads, load_direction
@@ -108,63 +108,114 @@ contains
     call add_rotation(system, state, spin_at(system, level), external, values)
   end subroutine assemble_loads
 
+  !> One element. The work arrays have a fixed size, because automatic ones would be allocated.
   pure subroutine assemble_element(system, e, element, jacobian, iterate)
     type(system_t), intent(in) :: system
     integer, intent(in) :: e
     class(element_t), intent(in) :: element
     real(wp), intent(out) :: jacobian(element%strains, element%coordinates)
     type(iterate_t), intent(inout) :: iterate
-    real(wp) :: law(element%strains, element%strains)
-    real(wp) :: tangent(element%coordinates, element%coordinates)
-    real(wp), dimension(element%strains, element%coordinates) :: stress_rate
-    real(wp) :: strain(element%strains), elastic(element%strains), size_of(element%coordinates)
-    integer :: first, last, i, j
+    real(wp), dimension(max_strains) :: strain, stress
+    real(wp) :: law(max_strains**2), tangent(max_coordinates**2)
+    integer :: first, last, n
     logical :: valid
 
+    n = element%strains
     first = system%first(e) + 1
     last = system%first(e + 1)
-    call element%evaluate(iterate%state, iterate%stress(first:last), strain, jacobian, tangent, &
-                          valid)
+    stress = 0
+    if (.not. iterate%keeps_matrix) stress(:n) = iterate%stress(first:last)
+    call element%evaluate(iterate%state, stress, strain, jacobian, tangent, valid)
     if (.not. valid) then
       iterate%invalid = e
       return
     end if
     call element%law(law)
-    elastic = matmul(law, strain) + system%initial_stress(first:last)
+    iterate%strain(first:last) = strain(:n)
+    call multiply(n, law, strain, stress)
+    stress(:n) = stress(:n) + system%initial_stress(first:last)
+    iterate%elastic(first:last) = stress(:n)
     if (allocated(iterate%velocity)) then
       call add_damping(element, first, jacobian, iterate, law)
+      if (element%damped) stress(:n) = stress(:n) + iterate%viscous(first:last)
     end if
-    iterate%strain(first:last) = strain
-    iterate%elastic(first:last) = elastic
-    if (element%damped .and. allocated(iterate%velocity)) then
-      elastic = elastic + iterate%viscous(first:last)
-    end if
+    call add_forces(system, element, first, jacobian, stress, iterate)
+    if (iterate%keeps_matrix) return
+    call add_stiffness(element, jacobian, law, tangent)
+    call add_noise(element, tangent, iterate)
+    call add_element(system, e, element, tangent, jacobian, iterate%values)
+  end subroutine assemble_element
+
+  pure subroutine multiply(n, matrix, vector, product)
+    integer, intent(in) :: n
+    real(wp), intent(in) :: matrix(n, n), vector(n)
+    real(wp), intent(out) :: product(n)
+    integer :: j
+
+    product = 0
+    do j = 1, n
+      product = product + matrix(:, j)*vector(j)
+    end do
+  end subroutine multiply
+
+  !> Forces of the stresses and of the multipliers.
+  pure subroutine add_forces(system, element, first, jacobian, stress, iterate)
+    type(system_t), intent(in) :: system
+    class(element_t), intent(in) :: element
+    integer, intent(in) :: first
+    real(wp), intent(in) :: jacobian(element%strains, element%coordinates)
+    real(wp), intent(in) :: stress(element%strains)
+    type(iterate_t), intent(inout) :: iterate
+    integer :: i, j
+
     associate (at => element%coordinate)
       do j = 1, element%coordinates
-        iterate%internal(at(j)) = iterate%internal(at(j)) + dot_product(elastic, jacobian(:, j))
+        iterate%internal(at(j)) = iterate%internal(at(j)) + dot_product(stress, jacobian(:, j))
       end do
       do i = 1, element%strains
         if (system%multiplier(first + i - 1) == 0) cycle
-        iterate%constraint(at) = iterate%constraint(at) &
-                                 + iterate%stress(first + i - 1)*jacobian(i, :)
+        do j = 1, element%coordinates
+          iterate%constraint(at(j)) = iterate%constraint(at(j)) &
+                                      + iterate%stress(first + i - 1)*jacobian(i, j)
+        end do
       end do
     end associate
-    if (iterate%keeps_matrix) return
-    stress_rate = matmul(law, jacobian)
+  end subroutine add_forces
+
+  !> tangent + D' S D, with the products of the columns j and i <= j of D alone.
+  pure subroutine add_stiffness(element, jacobian, law, tangent)
+    class(element_t), intent(in) :: element
+    real(wp), intent(in) :: jacobian(element%strains, element%coordinates)
+    real(wp), intent(in) :: law(element%strains, element%strains)
+    real(wp), intent(inout) :: tangent(element%coordinates, element%coordinates)
+    real(wp) :: rate(max_strains)
+    integer :: i, j
+
     do j = 1, element%coordinates
+      call multiply(element%strains, law, jacobian(:, j), rate)
       do i = 1, j
-        tangent(i, j) = tangent(i, j) + dot_product(jacobian(:, i), stress_rate(:, j))
+        tangent(i, j) = tangent(i, j) + dot_product(jacobian(:, i), rate(:element%strains))
         tangent(j, i) = tangent(i, j)
       end do
     end do
+  end subroutine add_stiffness
+
+  !> Round-off to expect in the forces of an element.
+  pure subroutine add_noise(element, tangent, iterate)
+    class(element_t), intent(in) :: element
+    real(wp), intent(in) :: tangent(element%coordinates, element%coordinates)
+    type(iterate_t), intent(inout) :: iterate
+    real(wp) :: size_of(max_coordinates)
+    integer :: j, n
+
+    n = element%coordinates
     call coordinate_sizes(element, iterate%state, size_of)
-    do j = 1, element%coordinates
+    do j = 1, n
       associate (noise => iterate%noise(element%coordinate(j)))
-        noise = noise + dot_product(abs(tangent(:, j)), size_of)
+        noise = noise + dot_product(abs(tangent(:, j)), size_of(:n))
       end associate
     end do
-    call add_element(system, e, element, tangent, jacobian, iterate%values)
-  end subroutine assemble_element
+  end subroutine add_noise
 
   !> Rates of the strains and viscous stresses; the law gains what the velocities add to it.
   pure subroutine add_damping(element, first, jacobian, iterate, law)
