@@ -2,7 +2,7 @@
 !> what OUTPUT keeps of nodes and elements.
 module output_steps
   use kinds, only: wp, i8
-  use model_data, only: model_t, analysis_t, name_length, components
+  use model_data, only: model_t, analysis_t, name_length, components, analysis_kinematic
   use recorder, only: step_t
   use system_results, only: results_t, result_modes, joint_strains, energy_names
   use system_stress, only: stress_parts
@@ -86,7 +86,7 @@ contains
     call start_joints(self, file)
     call start_convergence(self, file)
     if (self%timed) call start_motion(self, file)
-    if (self%timed) call start_balances(self, file)
+    if (self%timed .and. analysis%kind /= analysis_kinematic) call start_balances(self, file)
     self%block = 1
     if (self%timed) self%block = block_size(bytes_of_step(self))
     self%pending = 0
@@ -364,6 +364,7 @@ contains
       call node%append(file, t(angular_acceleration), results%acceleration(4:6, :))
       call node%append(file, t(warping_acceleration), results%acceleration(7:7, :))
       call t(joint_rate)%append(file, results%joint_rate)
+      if (.not. allocated(results%energy)) return  ! KINEMATIC knows no masses
       do i = 1, size(energy_names)
         call t(first_energy + i - 1)%append(file, results%energy(i))
       end do
