@@ -229,12 +229,13 @@ contains
         "INITIAL factor:1 | MAXSTEPS n:count=200 | "// &
         "STOP node:nodes component:component value:1 | TOL tolerance:1=1e-7 | "// &
         "MAXITER n:count=30 | STABILITY kind:OFF/ON/REQUIRED=OFF | NAME name:word | "// &
-        "BRANCH switch:OFF/ON=OFF", &
+        "BRANCH switch:OFF/ON=OFF | COMPLIANCE nodes:nodes", &
         "ramps the loads given since the last analysis. CONTROL LOAD (default): equal steps of "// &
         "the load factor to TO; CONTROL DISPLACEMENT: equal steps of a displacement of a node "// &
         "or marker to a value; CONTROL ARC: along the path, past limit points, to TO or STOP. "// &
         "STABILITY counts unstable modes and locates critical points, BRANCH ON switches to "// &
-        "the secondary branch at the first bifurcation", &
+        "the secondary branch at the first bifurcation; COMPLIANCE finds that of nodes at each "// &
+        "step", &
         "STATIC STEPS 12 NAME lift", "mode 10", read_static), &
       keyword_t("BUCKLING", "analysis", "", "MODES n:count=10 | NAME name:word", &
         "finds the multipliers of the loads given since the last STATIC, or of those it "// &
