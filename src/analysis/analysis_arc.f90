@@ -18,6 +18,7 @@ module analysis_arc
   use branch_switch, only: lean_into_mode
   use equilibrium_path, only: safe_t, keep_safe, go_back, newton_options, check_dropped, &
                               check_angles, failure
+  use analysis_compliance, only: add_compliance
   use recorder, only: recorder_t, step_t, iteration_t
   implicit none
   private
@@ -68,6 +69,8 @@ contains
       call take_step(model, system, solver, analysis, path, level, iterate, recorder, record, error)
       if (.not. allocated(error)) call check_angles(model, system, level, error)
       if (.not. allocated(error)) call check_dropped(model, system, iterate, error)
+      if (.not. allocated(error)) call add_compliance(model, system, solver, analysis, level, &
+                                                      iterate, record, error)
       if (allocated(error)) return
       record%factor = level(analysis%pattern)
       record%unstable = path%watch%unstable

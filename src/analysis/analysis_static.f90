@@ -18,6 +18,7 @@ module analysis_static
   use path_control, only: control_t
   use stability_watch, only: watch_t, start_watch, watch_step
   use system_measure, only: new_measure
+  use analysis_compliance, only: add_compliance
   use recorder, only: recorder_t, step_t, iteration_t
   implicit none
   private
@@ -60,6 +61,8 @@ contains
                  record, error)
       if (.not. allocated(error)) call check_angles(model, system, level, error)
       if (.not. allocated(error)) call check_dropped(model, system, iterate, error)
+      if (.not. allocated(error)) call add_compliance(model, system, solver, analysis, level, &
+                                                      iterate, record, error)
       if (allocated(error)) return
       if (analysis%pattern > 0) record%factor = level(analysis%pattern)
       record%unstable = watch%unstable

@@ -32,6 +32,8 @@ module recorder
     integer :: unstable = -1          !< unstable modes; -1: not asked for
     real(wp) :: arc = 0.0_wp          !< arc length of the step, 0 if not controlled by it
     type(iteration_t) :: last         !< the converged iteration
+    !> (6, 6, nodes) of the nodes that the analysis asks for, as in `compliance` of `recorder_t`
+    real(wp), allocatable :: compliance(:, :, :)
   end type step_t
 
   integer, parameter, public :: critical_limit = 1, critical_bifurcation = 2

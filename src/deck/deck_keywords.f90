@@ -235,7 +235,7 @@ contains
         "INITIAL factor:1 | MAXSTEPS n:count=200 | "// &
         "STOP node:nodes component:component value:1 | TOL tolerance:1=1e-7 | "// &
         "MAXITER n:count=30 | STABILITY kind:OFF/ON/REQUIRED=OFF | NAME name:word | "// &
-        "BRANCH switch:OFF/ON=OFF"
+        "BRANCH switch:OFF/ON=OFF | COMPLIANCE nodes:nodes"
 
     table = [ &
       keyword_t("STATIC", "analysis", "", static_options, &
@@ -243,7 +243,8 @@ contains
         "the load factor to TO; CONTROL DISPLACEMENT: equal steps of a displacement of a node "// &
         "or marker to a value; CONTROL ARC: along the path, past limit points, to TO or STOP. "// &
         "STABILITY counts unstable modes and locates critical points, BRANCH ON switches to "// &
-        "the secondary branch at the first bifurcation", &
+        "the secondary branch at the first bifurcation; COMPLIANCE finds that of nodes at each "// &
+        "step", &
         "STATIC STEPS 12 NAME lift", "mode 10", read_static), &
       keyword_t("STATIONARY", "analysis", "", static_options, &
         "finds the equilibrium of a model that turns steadily, in the frame that turns with it: "// &

@@ -4,7 +4,8 @@ module deck_load_cards
   use diagnostics, only: place_t
   use deck_card, only: card_t
   use deck_draft, only: draft_t, record_t, iteration_t, record_fix, record_load, record_marker, &
-                        record_gravity, record_stop, record_rotation
+                        record_gravity, record_stop, record_rotation, &
+                        record_compliance
   use deck_growth, only: grow
   use deck_settings, only: is_identifier
   use deck_model_cards, only: define_name
@@ -236,6 +237,8 @@ contains
       if (option(14) > 0) analysis%branch = card%whole(option(14) + 1) == 2
       if (analysis%branch) analysis%stability = max(analysis%stability, stability_on)
       call check_arc_options(card, analysis, draft)
+      if (option(15) > 0) call add_record(card, option(15) + 1, draft, &
+                                          record_t(kind=record_compliance))
     end associate
     draft%model%analysis(k) = analysis
   end subroutine read_equilibria

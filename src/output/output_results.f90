@@ -13,6 +13,7 @@ module output_results
                           rename_file, remove_file, link_name, same_file
   use output_hdf5, only: hdf5_file_t, about_t
   use output_choice, only: labels_of
+  use output_compliance, only: write_compliance
   use output_model, only: write_deck, write_model
   use output_modes, only: write_modes
   use output_schedule, only: has_steps, drawing_rule_t, new_rule
@@ -315,17 +316,8 @@ contains
     integer, intent(in) :: node(:)             !< indices
     real(wp), intent(in) :: matrix(:, :, :)    !< (6, 6, nodes), see `recorder_t`
     type(error_t), allocatable, intent(out) :: error
-    character(len=*), parameter :: &
-      to_force = " F-1L F-1L F-1L F-1 F-1 F-1", to_moment = " F-1 F-1 F-1 F-1L-1 F-1L-1 F-1L-1"
-    integer :: i
 
-    call self%file%write(self%group//"/nodes", self%node(:, node), &
-      about_t("1", "node; row id part", "row of /model/nodes, from 0, and its name"))
-    call self%file%write(self%group//"/compliance", &
-      reshape([(transpose(matrix(:, :, i)), i=1, size(node))], [6, 6, size(node)]), &
-      about_t(adjustl(repeat(to_force, 3)//repeat(to_moment, 3)), &
-              "node; X Y Z RX RY RZ; FX FY FZ MX MY MZ", &
-              "displacement and rotation per force and moment, global axes"))
+    call write_compliance(self%file, self%group, self%node(:, node), matrix)
     call self%file%flush(error)
     if (.not. allocated(error)) self%empty = .false.
   end subroutine keep_compliance

@@ -3,11 +3,12 @@
 module output_steps
   use hdf5, only: hid_t
   use kinds, only: wp, i8
-  use model_data, only: model_t, analysis_t, name_length, components
+  use model_data, only: model_t, analysis_t, name_length, components, analysis_kinematic
   use recorder, only: step_t
   use system_results, only: results_t, result_modes, joint_strains, energy_names
   use system_stress, only: stress_parts
-  use output_choice, only: choices_t, all_of, kept_of
+  use output_choice, only: choices_t, all_of, kept_of, labels_of
+  use output_compliance, only: start_compliance, append_compliance
   use output_files, only: link_name
   use output_hdf5, only: hdf5_file_t, about_t
   use output_schedule, only: in_time, expected_steps, block_size
@@ -25,7 +26,7 @@ module output_steps
     increment = 23, constraint = 24, &
     velocity = 25, angular_velocity = 26, warping_rate = 27, &
     acceleration = 28, angular_acceleration = 29, warping_acceleration = 30, &
-    linear_momentum = 31, angular_momentum = 32, first_energy = 33, &
+    linear_momentum = 31, angular_momentum = 32, compliance = 33, first_energy = 34, &
     tables = first_energy + size(energy_names) - 1
 
   character(len=*), parameter :: energy_texts(size(energy_names)) = [character(len=72) :: &
@@ -38,6 +39,7 @@ module output_steps
     private
     character(len=:), allocatable :: group
     type(choices_t) :: all, of_time, now           !< kept: all, in time, in the present analysis
+    integer, allocatable :: label(:, :)            !< (3, nodes) row from 0, id, part
     integer :: joints = 0
     character(len=name_length), allocatable :: marker(:)
     logical :: timed = .false.
@@ -63,6 +65,7 @@ contains
 
     self%all = all_of(model)
     self%of_time = kept_of(model)
+    self%label = labels_of(model%node)
     self%joints = size(model%joint)
     self%marker = model%marker%name
   end subroutine prepare
@@ -88,8 +91,10 @@ contains
     call start_markers(self, file)
     call start_joints(self, file)
     call start_convergence(self, file)
+    if (allocated(analysis%node)) call start_compliance(self%table(compliance), file, group, &
+                                                        self%label(:, analysis%node), self%steps)
     if (self%timed) call start_motion(self, file)
-    if (self%timed) call start_balances(self, file)
+    if (self%timed .and. analysis%kind /= analysis_kinematic) call start_balances(self, file)
     self%block = 1
     if (self%timed) self%block = block_size(bytes_of_step(self))
     self%pending = 0
@@ -306,6 +311,8 @@ contains
 
     call append_numbers(self%table, file, step)
     call append_state(self, file, results)
+    if (allocated(step%compliance)) call append_compliance(self%table(compliance), file, &
+                                                           step%compliance)
     if (self%timed) call append_motion(self, file, results)
     do i = 1, size(self%marker)
       call self%marker_table(i)%append(file, results%marker(:, i:i))
@@ -402,6 +409,7 @@ contains
       call node%append(file, t(angular_acceleration), results%acceleration(4:6, :))
       call node%append(file, t(warping_acceleration), results%acceleration(7:7, :))
       call t(joint_rate)%append(file, results%joint_rate)
+      if (.not. allocated(results%energy)) return  ! KINEMATIC knows no masses
       do i = 1, size(energy_names)
         call t(first_energy + i - 1)%append(file, results%energy(i))
       end do

@@ -51,6 +51,10 @@ program run_tests
   use test_section_command, only: run_section_command_tests
   use test_manual, only: run_manual_tests
   use test_kinematic, only: run_kinematic_tests
+  use test_spatial_mechanisms, only: run_spatial_mechanisms_tests
+  use test_flexures, only: run_flexures_tests
+  use test_driving_forces, only: run_driving_forces_tests
+  use test_spacar_decks, only: run_spacar_decks_tests
   use test_inverse, only: run_inverse_tests
   use test_compliance, only: run_compliance_tests
   use test_motion_bridge, only: run_motion_bridge_tests
@@ -107,6 +111,10 @@ program run_tests
   call run_section_command_tests()
   call run_manual_tests()
   call run_kinematic_tests()
+  call run_spatial_mechanisms_tests()
+  call run_flexures_tests()
+  call run_driving_forces_tests()
+  call run_spacar_decks_tests()
   call run_inverse_tests()
   call run_compliance_tests()
   call run_motion_bridge_tests()
