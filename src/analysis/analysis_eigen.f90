@@ -77,8 +77,8 @@ contains
     end if
     if (allocated(error)) return
     if (analysis%damped) then
-      if (.not. any(abs(matrices%c) > 0)) call recorder%remark("warning: DAMPED, but nothing in "// &
-                                                               "the model damps")
+      if (.not. any(abs(matrices%c) > 0)) call recorder%remark( &
+        "warning: DAMPED, but nothing in the model damps")
     end if
     if (analysis%matrices) call keep_matrices(model, system, matrices, modes)
     call recorder%modes(modes, error)

@@ -58,6 +58,10 @@ contains
     call new_masses(model, system, masses)
     call new_dynamics(system, masses, iterate, new_scheme(analysis%spectral_radius), &
                       model%rayleigh(1), motion, error)
+    if (analysis%iterations > 0) motion%iterations = analysis%iterations
+    if (system%multipliers > 0 .and. analysis%spectral_radius >= 1) call recorder%remark( &
+      "warning: RHOINF 1 with held strains: their forces may grow slowly, as nothing damps "// &
+      "errors; RHOINF 0.9 does")
     if (allocated(error)) then
     else if (present(point)) then
       grid = new_time_grid(analysis, point%start)

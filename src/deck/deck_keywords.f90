@@ -225,7 +225,7 @@ contains
         "point: STATIONARY ramps w, and what follows is about the turning model. Coordinates, "// &
         "loads and supports are those of the frame that turns with it; later cards, about the "// &
         "same axis, add to w", &
-        "ROTATION 2 0 0 1|STATIONARY", "", read_rotation)]
+        "ROTATION 0.001 0 0 1|STATIONARY", "", read_rotation)]
   end function load_keywords
 
   function analysis_keywords() result(table)
@@ -247,9 +247,9 @@ contains
         "step", &
         "STATIC STEPS 12 NAME lift", "mode 10", read_static), &
       keyword_t("STATIONARY", "analysis", "", static_options, &
-        "finds the equilibrium of a model that turns steadily, in the frame that turns with it: "// &
-        "STATIC with the centrifugal forces of ROTATION, whose rate grows with the load factor", &
-        "ROTATION 2 0 0 1|STATIONARY", "", read_stationary), &
+        "finds the equilibrium of a model that turns steadily, in the frame that turns with "// &
+        "it: STATIC with the centrifugal forces of ROTATION, whose rate grows with the load factor", &
+        "ROTATION 0.001 0 0 1|STATIONARY", "", read_stationary), &
       keyword_t("BUCKLING", "analysis", "", "MODES n:count=10 | NAME name:word", &
         "finds the multipliers of the loads given since the last STATIC, or of those it "// &
         "applied, at which the state becomes unstable: n nearest zero of each sign", &

@@ -271,7 +271,6 @@ module model_data
     real(wp) :: time_step = 0.0_wp            !< STEP [T]; 0: adaptive, with `tolerance` TOL
     real(wp) :: spectral_radius = 0.9_wp      !< RHOINF, 0 to 1
     real(wp) :: every = 0.0_wp                !< EVERY: interval of the output [T]; 0: each step
-    logical :: stabilised = .false.           !< velocity constraints exact too
     integer, allocatable :: node(:)           !< COMPLIANCE, also of STATIC: nodes
     type(place_t) :: place
   end type analysis_t

@@ -129,7 +129,7 @@ contains
         call statement%add([real([a%steps, a%iterations, a%control, c%node, c%marker, &
           c%component, a%most_steps, a%modes], wp), c%value, a%factor, a%tolerance, &
           a%first_increment, flag(a%stops), a%stop%value, flag(a%branch), a%end_time, &
-          a%time_step, a%spectral_radius, a%every, flag(a%stabilised)])
+          a%time_step, a%spectral_radius, a%every])
       end associate
     end do
     do i = 1, analysis

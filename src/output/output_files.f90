@@ -2,7 +2,8 @@
 module output_files
   use, intrinsic :: iso_c_binding, only: c_int, c_char, c_null_char, c_ptr, c_associated
   use errors, only: error_t, fail, exit_io
-  use output_interfaces, only: c_realpath, c_rename, c_remove, c_fopen, c_fclose, c_fileno, c_flock, c_isatty
+  use output_interfaces, only: c_realpath, c_rename, c_remove, c_fopen, c_fclose, c_fileno, &
+                               c_flock, c_isatty
   implicit none
   private
 

@@ -4,8 +4,8 @@ module output_interfaces
   implicit none
   private
 
-  public :: c_realpath, c_rename, c_remove, c_fopen, c_fclose, c_fileno, c_flock, c_isatty, c_memcpy, &
-            c_setenv, c_unsetenv
+  public :: c_realpath, c_rename, c_remove, c_fopen, c_fclose, c_fileno, c_flock, c_isatty, &
+            c_memcpy, c_setenv, c_unsetenv
 
   interface
     !> The path without links, dots and the like; null if there is nothing.

@@ -1,7 +1,7 @@
 !> Group /restart of the result file: for each motion in time the instant from which it can go on.
 !>
-!> The group itself is there from the start of the file. Two places are written in turn, so that one is whole whenever the program is killed; at the end
-!> of the analysis only the first is left.
+!> The group itself is there from the start of the file. Two places are written in turn, so that one
+!> is whole whenever the program is killed; at the end of the analysis only the first is left.
 module output_restart
   use, intrinsic :: iso_c_binding, only: c_loc
   use hdf5, only: hid_t, h5dopen_f, h5dwrite_f, h5dclose_f, h5t_native_double

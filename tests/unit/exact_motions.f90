@@ -66,7 +66,8 @@ contains
     y = integrate(double_swing_rates, g, [0.5_wp*pi, 0.5_wp*pi, 0.0_wp, 0.0_wp], time, 8000)
   end function double_swing
 
-  !> 2 a1'' + e a2'' = -s w2**2 - 2 g sin a1, e a1'' + a2'' = s w1**2 - g sin a2, e and s of a1 - a2.
+  !> 2 a1'' + e a2'' = -s w2**2 - 2 g sin a1, e a1'' + a2'' = s w1**2 - g sin a2, with e and s of
+  !> a1 - a2.
   pure function double_swing_rates(y, c) result(rate)
     real(wp), intent(in) :: y(:), c
     real(wp) :: rate(size(y)), e, s, p, q

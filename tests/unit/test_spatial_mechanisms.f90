@@ -68,7 +68,7 @@ contains
     call expect(memory%steps == 4 + 51, "all steps of both analyses")
     call expect(size(memory%remarks) == 1, "one constraint is too many")
     if (size(memory%remarks) == 1) call expect(index(memory%remarks(1)%s, &
-      "the model is overconstrained") > 0, "what the warning says")
+      "overconstrained once: element") > 0, "what the warning says")
     do i = 1, memory%steps
       wanted = -pi/9*i/4
       if (i > 4) wanted = -pi/9 + 220*pi/180*(i - 5)/50

@@ -62,7 +62,8 @@ contains
     call follow("step_torque", motion, model, [setting("n", "20")])
     if (motion%steps < 2) return
     got = [(2*asin(motion%results(motion%at(times(i)))%euler(2, 11)), i=1, 5)]
-    call expect_close(got/maxval(wanted), wanted/maxval(wanted), 5.0e-3_wp, "rotation of the middle")
+    call expect_close(got/maxval(wanted), wanted/maxval(wanted), 5.0e-3_wp, &
+                      "rotation of the middle")
     call expect_close(got(:4)/wanted(:4), spread(1.0_wp, 1, 4), 0.01_wp, "rotation over the series")
     call expect(any(abs(motion%frequency/40.231294125005405_wp - 1) < 1.0e-3_wp), &
                 "that EIGEN finds the frequency of the first torsion")
