@@ -62,7 +62,8 @@ contains
     call assemble(system, level, iterate)
     call new_masses(model, system, masses)
     if (masses%bodies == 0) then
-      call fail(error, exit_deck, "EIGEN needs mass: give RHO to a MATERIAL, EM to an element or XM to a node")
+      call fail(error, exit_deck, "EIGEN needs mass: give RHO to a MATERIAL, EM to an element"// &
+                " or XM to a node")
       return
     end if
     complex = is_complex(system, analysis, level, iterate)
@@ -76,8 +77,8 @@ contains
     end if
     if (allocated(error)) return
     if (analysis%damped) then
-      if (.not. any(abs(matrices%c) > 0)) call recorder%remark("warning: DAMPED, but nothing in "// &
-                                                               "the model damps")
+      if (.not. any(abs(matrices%c) > 0)) call recorder%remark( &
+        "warning: DAMPED, but nothing in the model damps")
     end if
     if (analysis%matrices) call keep_matrices(model, system, matrices, modes)
     call recorder%modes(modes, error)

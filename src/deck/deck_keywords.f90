@@ -246,7 +246,7 @@ contains
         "the secondary branch at the first bifurcation", &
         "STATIC STEPS 12 NAME lift", "mode 10", read_static), &
       keyword_t("STATIONARY", "analysis", "", static_options, &
-        "finds the equilibrium of a model that turns steadily, in the frame that turns with it: "// &
+        "finds the equilibrium of a model that turns steadily, in the frame that turns too: "// &
         "STATIC with the centrifugal forces of ROTATION, whose rate grows with the load factor", &
         "ROTATION 2 0 0 1|STATIONARY", "", read_stationary), &
       keyword_t("BUCKLING", "analysis", "", "MODES n:count=10 | NAME name:word", &
