@@ -58,6 +58,15 @@ contains
     call expect(found, name//": the remark '"//remark//"'")
   end subroutine solve
 
+  !> Whether there are so many modes; fewer are a failure.
+  logical function enough(modes, n)
+    type(modes_t), intent(in) :: modes
+    integer, intent(in) :: n
+
+    enough = modes%modes >= n
+    call expect(enough, "modes are found")
+  end function enough
+
   !> Load factors at 30, 90 and 210 cm with lumped inertia; the consistent one is near to it.
   subroutine channel()
     real(wp), parameter :: wanted(3) = [8.9698_wp, 10.7786_wp, 16.5885_wp]
@@ -110,11 +119,11 @@ contains
     integer :: i, k
 
     call solve("disk", modes, [setting(1)])
-    if (modes%modes < 4) return
+    if (.not. enough(modes, 4)) return
     call expect_close(2*pi*modes%frequency([1, 3]), whirl(3:4, 1), 1.0e-6_wp*1182, "at rest")
     do i = 2, 3
       call solve("disk", modes, [setting(i)], "no frequency is missing")
-      if (modes%modes < 4) cycle
+      if (.not. enough(modes, 4)) cycle
       do k = 1, 4
         associate (x => modes%displacement(1:2, 2, k), &
                    y => modes%quadrature%displacement(1:2, 2, k))
@@ -146,13 +155,13 @@ contains
     type(modes_t) :: modes
 
     call solve("disk", modes, ["rate=144.804808708"])
-    if (modes%modes > 0) call expect_close(2*pi*modes%frequency(1)/144.8_wp, 0.0_wp, 1.0e-4_wp, &
+    if (enough(modes, 1)) call expect_close(2*pi*modes%frequency(1)/144.8_wp, 0.0_wp, 1.0e-4_wp, &
                                            "forward")
     call solve("disk", modes, ["rate=132.552059365"])
-    if (modes%modes > 1) call expect_close(pi*modes%frequency(2)/132.552059365_wp, 1.0_wp, &
+    if (enough(modes, 2)) call expect_close(pi*modes%frequency(2)/132.552059365_wp, 1.0_wp, &
                                            1.0e-6_wp, "backward")
     call solve("disk", modes, ["rate=712.676958208"])
-    if (modes%modes > 3) call expect(minval(abs(pi*modes%frequency/712.676958208_wp - 1)) &
+    if (enough(modes, 4)) call expect(minval(abs(pi*modes%frequency/712.676958208_wp - 1)) &
                                      < 1.0e-6_wp, "backward, of the second pair")
   end subroutine critical
 
@@ -186,11 +195,11 @@ contains
       both(2::2) = flap(:, i)
       both(1::2) = sqrt(flap(:, i)**2 - eta(i)**2)
       call solve("blade", modes, [character(len=6) :: setting(i), "n=12"])
-      if (modes%modes < 6) cycle
+      if (.not. enough(modes, 6)) cycle
       call expect(modes%complete, "dense")
       call expect_close(2*pi*modes%frequency/both, spread(1.0_wp, 1, 6), 1.0e-3_wp, setting(i))
       call solve("blade", modes, [character(len=6) :: setting(i), "n=40"])
-      if (modes%modes < 6) cycle
+      if (.not. enough(modes, 6)) cycle
       call expect(.not. modes%complete, "by iteration")
       call expect_close(2*pi*modes%frequency/both, spread(1.0_wp, 1, 6), 2.0e-4_wp, setting(i))
     end do
@@ -279,10 +288,10 @@ contains
 
     do i = 1, 2
       call solve("beck", modes, below(i:i))
-      if (modes%modes == 6) call expect_close(modes%damping, spread(0.0_wp, 1, 6), 0.0_wp, below(i))
+      if (enough(modes, 6)) call expect_close(modes%damping, spread(0.0_wp, 1, 6), 0.0_wp, below(i))
     end do
     call solve("beck", modes, ["p=20.055"], "warning: the state is unstable: 2 growing modes")
-    if (modes%modes /= 6) return
+    if (.not. enough(modes, 6)) return
     call expect(all(modes%damping(1:2) < 0) .and. all(modes%imaginary(1:2) > 0), "they grow")
     call expect_close(modes%damping(3:4), -modes%damping(1:2), 1.0e-6_wp, "two others decay")
   end subroutine beck

@@ -87,7 +87,8 @@ def rotor(bench):
                  " frame, as above.")
     found = solve(bench, "rotor")[:, 1]
     rows = [(name, Number(500 + sign * found[k], wanted, 1e-4)) for name, k, sign, wanted in (
-        ("translation, forward", 0, -1, 447.2135955), ("translation, backward", 2, -1, -447.2135955),
+        ("translation, forward", 0, -1, 447.2135955),
+        ("translation, backward", 2, -1, -447.2135955),
         ("conical, backward", 3, -1, -500), ("conical, forward", 1, 1, 1250))]
     problem.compare(rows, "ω")
     return problem
