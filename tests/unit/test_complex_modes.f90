@@ -4,7 +4,15 @@ module test_complex_modes
   use kinds, only: wp
   use check, only: run, expect, expect_close
   use errors, only: error_t
-  use model_data, only: model_t
+  use diagnostics, only: report_t
+  use deck_reader, only: read_deck
+  use nodal_state, only: state_t, new_state, coordinate_number
+  use rotation, only: cross, skew
+  use system_data, only: system_t
+  use system_build, only: build_system, find_system_pattern
+  use system_inertia, only: mass_centre
+  use system_rotation, only: add_rotation, spin_at
+  use model_data, only: model_t, setting_t
   use memory_recorder, only: memory_t, run_deck
   use mode_results, only: modes_t
   use program_runs, only: outcome_t, run_spar, scratch
@@ -21,6 +29,7 @@ contains
   subroutine run_complex_modes_tests()
     call run("turning: the channel cantilever (theory 10)", channel)
     call run("turning: rates of patterns add, forces go with their square", rates)
+    call run("turning: centrifugal forces and their tangent by differences", tangent)
     call run("turning: whirl of an overhung disk (EIG-15)", disk)
     call run("turning: critical speeds of the disk (EIG-15)", critical)
     call run("turning: rigid rotor on two bearings (EIG-17)", rotor)
@@ -103,6 +112,84 @@ contains
       call expect_close(memory%results(i)%reaction(1, 1), -force*level(i)**2, 1.0e-5_wp, "reaction")
     end do
   end subroutine rates
+
+  !> About an axis beside the origin, of a deformed model: the forces are those of the mass at its
+  !> centre, the tangent is their derivative and half the skew of the moments (theory 1).
+  subroutine tangent()
+    type(model_t) :: model
+    type(report_t) :: report
+    type(error_t), allocatable :: error
+    type(system_t) :: system
+    type(state_t) :: state
+    type(setting_t) :: setting(1)
+    real(wp), allocatable :: total(:), values(:), found(:, :), wanted(:, :), move(:)
+    real(wp) :: spin(3), level(1), sums(3), arm(3)
+    real(wp), parameter :: h = 1.0e-4_wp
+    integer :: i, k, at(3)
+
+    setting(1) = setting_t("rate", "3")
+    call read_deck("tests/cases/rotating/proportional.deck", setting, model, report, error)
+    call build_system(model, system)
+    call find_system_pattern(system, unsymmetric=.true.)
+    call new_state(system%nodes, 0, 0, state)
+    call state%move([(0.3_wp*sin(1.7_wp*k), k=1, system%coordinates)])
+    level = 0.7_wp
+    spin = spin_at(system, level)
+    call expect_close(spin, 0.7_wp*3*[0.0_wp, 0.6_wp, 0.8_wp], 1.0e-14_wp, "rate")
+    allocate (values(size(system%pattern%row)), wanted(system%unknowns, system%unknowns))
+    allocate (found, mold=wanted)
+    call forces(state, total, values)
+    sums = [(sum(total(i::7)), i=1, 3)]
+    arm = mass_centre(system%masses, state) - [-1.0_wp, 0.0_wp, 0.0_wp]
+    call expect_close(sums, -system%masses%total*cross(spin, cross(spin, arm)), 1.0e-10_wp, "forces")
+    found = 0
+    do i = 1, size(values)
+      if (max(system%pattern%row(i), system%pattern%column(i)) > system%unknowns) cycle
+      found(system%pattern%row(i), system%pattern%column(i)) = values(i)
+    end do
+    do k = 1, system%coordinates
+      if (system%unknown(k) == 0) cycle
+      move = 0*total
+      move(k) = h
+      wanted(:, system%unknown(k)) = pack(change(2*move) - 8*change(move), system%unknown > 0)/(12*h)
+    end do
+    do i = 1, system%nodes
+      at = system%unknown(coordinate_number(i, [4, 5, 6]))
+      if (any(at == 0)) cycle
+      wanted(at, at) = wanted(at, at) - 0.5_wp*skew(total(coordinate_number(i, [4, 5, 6])))
+    end do
+    call expect_close(found, wanted, 1.0e-9_wp, "tangent")
+    call expect_close(found, transpose(found), 1.0e-12_wp, "a Hessian")
+    call expect(maxval(abs(total(4::7))) > 1.0e-4_wp, "with moments")
+
+  contains
+
+    subroutine forces(place, total, values)
+      type(state_t), intent(in) :: place
+      real(wp), allocatable, intent(out) :: total(:)
+      real(wp), intent(out) :: values(:)
+
+      allocate (total(system%coordinates))
+      total = 0
+      values = 0
+      call add_rotation(system, place, spin, total, values)
+    end subroutine forces
+
+    function change(move)
+      real(wp), intent(in) :: move(:)
+      real(wp) :: change(size(move)), unused(size(values))
+      real(wp), allocatable :: ahead(:), behind(:)
+      type(state_t) :: place
+
+      place = state
+      call place%move(move)
+      call forces(place, ahead, unused)
+      place = state
+      call place%move(-move)
+      call forces(place, behind, unused)
+      change = ahead - behind
+    end function change
+  end subroutine tangent
 
   !> Closed form of Stodola and Green in an inertial frame, forward positive; in the turning frame
   !> less by the rate. In the disk's plane e^(i w t) turns forward where Y lags X by 90 degrees.
