@@ -62,8 +62,8 @@ contains
     call assemble(system, level, iterate)
     call new_masses(model, system, masses)
     if (masses%bodies == 0) then
-      call fail(error, exit_deck, "EIGEN needs mass: give RHO to a MATERIAL, EM to an element "// &
-                "or XM to a node")
+      call fail(error, exit_deck, "EIGEN needs mass: give RHO to a MATERIAL, EM to an element"// &
+                " or XM to a node")
       return
     end if
     complex = is_complex(system, analysis, level, iterate)

@@ -247,8 +247,8 @@ contains
         "step", &
         "STATIC STEPS 12 NAME lift", "mode 10", read_static), &
       keyword_t("STATIONARY", "analysis", "", static_options, &
-        "finds the equilibrium of a model that turns steadily, in the frame that turns with "// &
-        "it: STATIC with the centrifugal forces of ROTATION, whose rate grows with the load factor", &
+        "finds the equilibrium of a model that turns steadily, in the frame that turns too: "// &
+        "STATIC with the centrifugal forces of ROTATION, whose rate grows with the load factor", &
         "ROTATION 0.001 0 0 1|STATIONARY", "", read_stationary), &
       keyword_t("BUCKLING", "analysis", "", "MODES n:count=10 | NAME name:word", &
         "finds the multipliers of the loads given since the last STATIC, or of those it "// &

@@ -8,12 +8,10 @@ module output_matrices
 
   public :: write_matrices
 
-  !> What an entry is depends on its coordinates; the dimension is that of two displacements.
-  character(len=*), parameter :: unlike = ", of two displacements"
-
 contains
 
-  !> K, G, N, C, M and the constraints' Jacobian J, and what their rows are.
+  !> K, G, N, C, M and the constraints' Jacobian J, and what their rows are. Dimensions are those
+  !> of two displacements.
   subroutine write_matrices(file, group, modes)
     type(hdf5_file_t), intent(inout) :: file
     character(len=*), intent(in) :: group
@@ -57,7 +55,7 @@ contains
       call file%write(group//"/"//name//"/column", column, &
         about_t("1", "entry", "column of each entry, from 0"))
       call file%write(group//"/"//name//"/value", value, &
-        about_t(dimension, "entry", meaning//unlike))
+        about_t(dimension, "entry", meaning))
     end subroutine put
   end subroutine write_matrices
 

@@ -116,7 +116,8 @@ module system_data
     type(function_t), allocatable :: function(:)
     type(drive_t), allocatable :: drive(:)
     type(turn_t), allocatable :: turn(:)
-    integer, allocatable :: holder(:, :)  !< (7, nodes) element whose strain it is; 0: none
+    !> (7, nodes) element whose strain is that coordinate; 0: none
+    integer, allocatable :: holder(:, :)
     !> By pattern: its level is the time; cards without a function act in full.
     logical, allocatable :: timed(:)
     type(rotor_t), allocatable :: rotor(:)

@@ -26,6 +26,7 @@ contains
   subroutine run_output_results_tests()
     call run("results: the file is as docs/results.md says", test_documentation)
     call run("results: motions in time are as docs/results.md says", test_history)
+    call run("results: modes are as docs/results.md says", test_modes)
     call run("results: reactions balance the loads", test_balance)
     call run("results: the model", test_model)
   end subroutine run_output_results_tests
@@ -71,6 +72,34 @@ contains
                 + datasets(path, "/analysis") + drawn(path), "every dataset is described")
     call expect(described > 100, "the page was read")
   end subroutine test_history
+
+  !> The same for modes: complex ones with matrices, real ones, and BUCKLING.
+  subroutine test_modes()
+    character(len=21), parameter :: deck(3) = [character(len=21) :: "rotating/proportional", &
+                                               "eigen/flap", "buckling/column"]
+    type(outcome_t) :: outcome
+    character(len=:), allocatable :: page, path
+    integer :: described, i, analyses
+
+    call read_text("docs/results.md", page)
+    path = scratch("documented_modes.h5")
+    do i = 1, 3
+      call run_spar("run tests/cases/"//trim(deck(i))//".deck --quiet -o "//path, outcome)
+      call expect(outcome%status == 0, trim(deck(i))//" runs")
+      call compare_rows(page, path, described)
+      select case (i)
+      case (1)
+        analyses = datasets(path, "/analysis/02_eigen")
+      case (2)
+        analyses = datasets(path, "/analysis")
+      case default
+        analyses = 2
+      end select
+      call expect(described == datasets(path, "/deck") + datasets(path, "/model") + analyses &
+                  + drawn(path), trim(deck(i))//": every dataset is described")
+    end do
+    call expect(analyses == 2, "the page was read")
+  end subroutine test_modes
 
   !> Datasets of /VTKHDF that are no mere matter of its format; stresses belong to outlines.
   integer function drawn(path)

@@ -98,7 +98,7 @@ def plot_curve(options):
     labels = list(options.label or [])
     for name in options.files:
         with Results(name) as results:
-            group = results.analysis(options.analysis, ("static",))
+            group = results.analysis(options.analysis, ("static", "stationary"))
             x = results.series(group, options.x)
             for path in paths:
                 y = results.series(group, path)
@@ -175,7 +175,7 @@ def draw_state(axes, shapes, state, view, outline, colour):
 def plot_frames(options):
     """A figure of deformed frames."""
     with Results(options.files[0]) as results:
-        group = results.analysis(options.analysis, ("static",))
+        group = results.analysis(options.analysis, ("static", "stationary"))
         last = len(group["step"])
         even = np.linspace(0, last, min(6, last + 1)).round().astype(int)
         steps = options.steps or sorted(set(even))

@@ -48,7 +48,7 @@ class Results:
     def _text(value):
         return value.decode() if isinstance(value, bytes) else str(value)
 
-    def analysis(self, name=None, kinds=("static", "buckling", "eigen")):
+    def analysis(self, name=None, kinds=("static", "stationary", "buckling", "eigen")):
         """Group of an analysis by its number or name; without one, the last of the kinds."""
         groups = self.file["analysis"]
         if name is None:
@@ -149,7 +149,7 @@ class Results:
     def step_state(self, group, step):
         """Displacements, rotation matrices, warping of a recorded step from 1; 0: the initial."""
         nodes = len(self.position)
-        if "nodes/index" in group:
+        if group is not None and "nodes/index" in group:
             raise ResultError(f"{group.name} has not kept all nodes: see OUTPUT NODES")
         if step == 0:
             return np.zeros((nodes, 3)), np.tile(np.eye(3), (nodes, 1, 1)), np.zeros(nodes)
