@@ -14,12 +14,12 @@ import re
 import sys
 import tempfile
 
-from problems import buckling, channel, frequencies, paths, static
+from problems import buckling, channel, flexures, frequencies, paths, static
 from problems.kit import ROOT, Bench, short
 
 PAGE = ROOT / "docs" / "validation.md"
-PROBLEMS = [*static.PROBLEMS, *channel.PROBLEMS, *paths.PROBLEMS, *buckling.PROBLEMS,
-            *frequencies.PROBLEMS]
+PROBLEMS = [*static.PROBLEMS, *flexures.PROBLEMS, *channel.PROBLEMS, *paths.PROBLEMS,
+            *buckling.PROBLEMS, *frequencies.PROBLEMS]
 SAME = 2e-5  # what the same program may differ by on another machine, with rounding of the page
 NUMBER = re.compile(r"[-+]?\d+(?:\.\d+)?(?:e[-+]?\d+)?")
 
