@@ -47,9 +47,9 @@ def guide(bench):
     problem.text(
         f"`{deck}`: leaf springs 100×50×0.5 mm, 50 mm apart, E = 210 GPa, a rigid shuttle moved"
         " across them by ±20 mm (one side computed), 32 elements for each spring. Compliances are"
-        " those of the tangent with the stroke held (option COMPLIANCE of STATIC). Beams are narrow:"
-        " a wide leaf spring, held from curving across by its clamps, has up to 1/(1 - ν²), 10 %,"
-        " more bending stiffness; give it E/(1 - ν²) if that matters.")
+        " those of the tangent with the stroke held (option COMPLIANCE of STATIC). Beams are"
+        " narrow: a wide leaf spring, held from curving across by its clamps, has up to"
+        " 1/(1 - ν²), 10 %, more bending stiffness; give it E/(1 - ν²) if that matters.")
     small = bench.run(deck, stroke="0.01")
     shear = 10 * (1 + NU) / (12 + 11 * NU)
     wide = LENGTH**3 / (E * HEIGHT**3 * THICKNESS / 4) + LENGTH * 2 * (1 + NU) / (E * AREA * shear)
@@ -120,8 +120,8 @@ def cross_hinge(bench):
         "Allowed: 1e-4 of moment and drift, 1e-3 and, for the torsion in z, 7e-3 of the stiffness."
         " With springs that only bend in the plane and twist (`cross_hinge_rigid.deck`, DYNE 2 5 6)"
         " there is one constraint too many: `spar check` says so. With one end released in the"
-        " stiff plane (`cross_hinge_released.deck`, RLSE 2.1 3) there is none. A motion in the plane"
-        " does not feel the difference:")
+        " stiff plane (`cross_hinge_released.deck`, RLSE 2.1 3) there is none. A motion in the"
+        " plane does not feel the difference:")
     exact = CROSS[-1, 1]
     problem.compare([
         ("moment at 20°, overconstrained", Number(reactions(rigid, 5)[-1], exact, 1e-3)),
