@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Leaf springs between a base and a rigid body, solved without elements: the references of FLX-1x.
+"""Leaf springs between a base and a rigid body, solved without elements: for LEAF-01 and 02.
 
 Each leaf spring is an elastic line in space with axial, shear, bending and torsional stiffness
 (Reissner; an axial force N adds N Ip/A to the torsional stiffness), integrated from the base by

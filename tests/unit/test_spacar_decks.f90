@@ -11,6 +11,7 @@ module test_spacar_decks
   public :: run_spacar_decks_tests
 
   real(wp), parameter :: pi = acos(-1.0_wp)
+  character(len=*), parameter :: folder = "tests/cases/spacar/"
 
 contains
 
@@ -34,8 +35,8 @@ contains
     character(len=2) :: number
 
     write (number, "(i0)") mode
-    call run_spar("run tests/cases/spacar/"//deck//".deck --quiet --mode "//number//" -o "// &
-                  scratch("spacar.h5"), outcome)
+    call run_spar("run "//deck//".deck --quiet --mode "//number//" -o "//scratch("spacar.h5"), &
+                  outcome)
     call expect(outcome%status == 0 .and. outcome%errors == "", "no complaint: "//outcome%errors)
     call get_reals(scratch("spacar.h5"), "analysis/"//name, flat, extents)
     call expect(size(flat) > 0, name)
@@ -46,7 +47,7 @@ contains
   subroutine checked()
     type(outcome_t) :: outcome
 
-    call run_spar("run tests/cases/spacar/slider_crank.deck --mode 0", outcome)
+    call run_spar("run decks/spacar_crank.deck --mode 0", outcome)
     call expect(outcome%status == 0, "exit status")
     ! 17 constraints: rigid modes 6 + 6, tilts 2 + 2, the driven angle
     call expect(index(outcome%output, "constraint equations                            17") > 0, &
@@ -65,8 +66,8 @@ contains
     real(wp) :: a, b, k, half, zero
     integer :: i
 
-    call solve("pendulum", 1, "01_transient/joints/strain", 6, angle)
-    call solve("pendulum", 1, "01_transient/joints/rate", 6, rate)
+    call solve(folder//"pendulum", 1, "01_transient/joints/strain", 6, angle)
+    call solve(folder//"pendulum", 1, "01_transient/joints/rate", 6, rate)
     call expect(size(angle, 2) == 1001, "TIMESTEP's steps")
     ! generalized-alpha errs by some (omega h)**2
     call expect_close(0.5_wp*(rate(1, :)*l)**2 - g*l*cos(angle(1, :)), &
@@ -94,8 +95,8 @@ contains
     real(wp) :: jet(0:2)
     integer :: i
 
-    call solve("slider_crank", 2, "01_inverse/joints/stress", 12, torque)
-    call solve("slider_crank", 2, "01_inverse/nodes/displacement", 24, place)
+    call solve("decks/spacar_crank", 2, "01_inverse/joints/stress", 12, torque)
+    call solve("decks/spacar_crank", 2, "01_inverse/nodes/displacement", 24, place)
     call expect(size(torque, 2) == 81, "TIMESTEP's steps")
     do i = 1, size(torque, 2)
       jet = slider_jet(r, l, w*0.0005_wp*(i - 1))
@@ -110,7 +111,7 @@ contains
     integer :: i
     real(wp), parameter :: rigidity(2) = [1200, 2000]
 
-    call solve("column", 7, "03_eigen/frequency", 1, found)
+    call solve(folder//"column", 7, "03_eigen/frequency", 1, found)
     do i = 1, 2
       call expect_close(found(1, i), exact(rigidity(i)), 1.0e-4_wp*found(1, i), "frequency")
     end do
@@ -161,7 +162,7 @@ contains
     real(wp), allocatable :: multiplier(:, :)
     real(wp) :: wanted(2)
 
-    call solve("column", 8, "02_buckling/multiplier", 1, multiplier)
+    call solve(folder//"column", 8, "02_buckling/multiplier", 1, multiplier)
     wanted = (pi**2*[1200, 2000]/16 - 300)/100
     call expect_close(multiplier(1, :2), wanted, 1.0e-4_wp*wanted(2), "multipliers")
   end subroutine buckling
@@ -171,8 +172,8 @@ contains
     real(wp), allocatable :: reaction(:, :), base(:, :)
     real(wp), parameter :: stiffness = 12*1.1e5_wp/1.0e6_wp
 
-    call solve("guided", 10, "01_static/nodes/reaction", 28, base)
-    call solve("guided", 10, "02_static/nodes/reaction", 28, reaction)
+    call solve(folder//"guided", 10, "01_static/nodes/reaction", 28, base)
+    call solve(folder//"guided", 10, "02_static/nodes/reaction", 28, reaction)
     call expect(size(base, 2) == 1 .and. size(reaction, 2) == 2, "steps of ITERSTEP")
     if (size(base, 2) < 1 .or. size(reaction, 2) < 2) return
     ! moved by 3e-4 of the length; the elongation relaxes the stretch

@@ -221,3 +221,49 @@ def table_3(path, meshes, errors):
     panels[0].set_ylabel("error of the frequency")
     panels[0].legend(loc="lower left", fontsize=7)
     figures.save(figure, path)
+
+
+def leaf_guide(path, results, beam, warped, exact, law):
+    """Support stiffness over the stroke, on a logarithmic scale; shapes."""
+    figure, (left, right) = figures.new_figure(7.0, 3.0, 2, width_ratios=[1.35, 1])
+    at_rest, drop = law
+    stroke = np.linspace(0, 20, 100)
+    left.semilogy(stroke, 1 / (at_rest * (1 + drop * stroke**2)), color=figures.GREY, lw=1,
+                  label="along, second-order beam")
+    left.semilogy(exact[:, 0], 1 / beam[:, 0, 0], "o", color=figures.COLOURS[0],
+                  label="along, spar")
+    left.semilogy(exact[:, 0], 1 / exact[:, 3], color=figures.PALE, lw=1,
+                  label="across, integrated")
+    left.semilogy(exact[:, 0], 1 / beam[:, 2, 2], "s", color=figures.COLOURS[1],
+                  label="across, spar")
+    left.semilogy(exact[:, 0], 1 / warped[:, 2, 2], "s", color=figures.COLOURS[1], mfc="white",
+                  label="across, spar, warping held")
+    left.set(xlabel="stroke (mm)", ylabel="support stiffness (N/mm)", xlim=(0, 20.6), ylim=(6, 2e5))
+    left.legend(loc="lower left", fontsize=7)
+    draw_planar(right, results, [0, 4, 8])
+    figures.save(figure, path)
+
+
+def cross_hinge(path, results, compliance, exact):
+    """Support stiffness over the angle; shapes."""
+    figure, (left, right) = figures.new_figure(7.0, 3.0, 2, width_ratios=[1.35, 1])
+    for k, (name, colour) in enumerate(zip("xyz", figures.COLOURS)):
+        left.semilogy(exact[:, 0], 1 / exact[:, 3 + k], color=colour, lw=1)
+        left.semilogy(exact[:, 0], 1 / compliance[:, k, k], "os^"[k], color=colour,
+                      mfc="white" if k == 1 else colour, label=f"{name}, spar")
+    left.plot([], [], color=figures.GREY, lw=1, label="integrated")
+    left.set(xlabel="angle (degrees)", ylabel="support stiffness (N/mm)", xlim=(0, 20.6))
+    left.legend(loc="upper right")
+    draw_planar(right, results, [0, 4, 8])
+    figures.save(figure, path)
+
+
+def draw_planar(axes, results, steps):
+    """States of a mechanism in its plane XY."""
+    shapes, view = Shapes(results), figures.View("XY")
+    group = results.analysis()
+    for k, step in enumerate(steps):
+        colour = figures.PALE if step == 0 else figures.SHADES(k / (len(steps) - 1))
+        state = results.step_state(group, step)
+        figures.draw_lines(axes, shapes, state, view, colors=[colour], linewidths=1.4)
+    figures.finish_view(axes, view, "mm")

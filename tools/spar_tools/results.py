@@ -149,10 +149,10 @@ class Results:
     def step_state(self, group, step):
         """Displacements, rotation matrices, warping of a recorded step from 1; 0: the initial."""
         nodes = len(self.position)
-        if group is not None and "nodes/index" in group:
-            raise ResultError(f"{group.name} has not kept all nodes: see OUTPUT NODES")
         if step == 0:
             return np.zeros((nodes, 3)), np.tile(np.eye(3), (nodes, 1, 1)), np.zeros(nodes)
+        if "nodes/index" in group:
+            raise ResultError(f"{group.name} has not kept all nodes: see OUTPUT NODES")
         steps = len(group["step"])
         if not 1 <= step <= steps:
             raise ResultError(f"{group.name} has steps 1 to {steps}, not {step}")
