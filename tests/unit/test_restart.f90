@@ -186,7 +186,7 @@ contains
     integer, allocatable :: extents(:)
 
     call expect_status(pendulum("TRANSIENT TEND 5e4"//tail)//" --quiet -o "//path, status, outcome, &
-                       "timeout --preserve-status --foreground -s "//signal//" 0.6")
+                       "timeout --preserve-status --foreground -s "//signal//" 1")
     call get_reals(path//trim(merge(".part", "     ", signal == "KILL")), &
                    "analysis/01_transient/time", times, extents)
     time = 0
@@ -224,20 +224,21 @@ contains
     call expect(time > 0, "a time")
   end subroutine test_interrupted
 
-  !> Within an interval of the output no step is lost: the run goes on from the last one.
+  !> Within an interval of the output no step is lost: the run goes on from the last one. Intervals
+  !> are so long that no block of states is written in the time given.
   subroutine test_between()
     type(outcome_t) :: outcome
     character(len=:), allocatable :: path
     real(wp) :: time
 
     path = fresh("swing.h5")
-    call stop_pendulum(path, "TERM", 130, " STEP 0.0001 EVERY 0.05", time)
+    call stop_pendulum(path, "TERM", 130, " STEP 0.0001 EVERY 0.2", time)
     call expect_status(pendulum("TRANSIENT TEND "//to_text(ceiling(time) + 1)// &
-                       " STEP 0.0001 EVERY 0.05")//" -o "//scratch("other.h5")//" --restart "//path, &
+                       " STEP 0.0001 EVERY 0.2")//" -o "//scratch("other.h5")//" --restart "//path, &
                        0, outcome)
     call expect(index(outcome%output, "at time "//to_text(time)//" of") == 0, &
                 "not only from the last state recorded")
-    call expect_pendulum(path, time, " STEP 0.0001 EVERY 0.05")
+    call expect_pendulum(path, time, " STEP 0.0001 EVERY 0.2")
     path = fresh("swing.h5")
     call stop_pendulum(path, "INT", 130, " TOL 1e-6 EVERY 0.1", time)
     call expect_pendulum(path, time, " TOL 1e-6 EVERY 0.1")
@@ -247,10 +248,18 @@ contains
   subroutine test_killed()
     type(outcome_t) :: outcome
     character(len=:), allocatable :: path
+    character(len=*), parameter :: place(2) = ["first ", "second"]
     real(wp) :: time
+    real(wp), allocatable :: point(:)
+    integer, allocatable :: extents(:)
+    integer :: i
 
     path = fresh("swing.h5")
     call stop_pendulum(path, "KILL", 137, " STEP 0.001", time)
+    do i = 1, 2
+      call get_reals(path//".part", "restart/01_transient/"//trim(place(i)), point, extents)
+      call expect(any(point > 0), "there is a point in the "//trim(place(i))//" place")
+    end do
     call expect_status(scratch("pendulum.deck")//" --restart "//path, 5, outcome)
     call expect(index(outcome%errors, "hint: --restart "//path//".part") > 0, outcome%errors)
     call expect_pendulum(path//".part", time, " STEP 0.001")
