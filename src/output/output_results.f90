@@ -214,6 +214,8 @@ contains
     if (allocated(error)) return
     call self%table%copy(self%file, source%reader%file, group, source%point%states)
     call source%read_rows(group//"/time", 0_i8, time)
+    call source%check_times(time(1, :), error)
+    if (allocated(error)) return
     do i = 1, size(wanted)
       wanted(i) = self%rule%draws(time(1, i))
     end do

@@ -30,6 +30,7 @@ module output_source
     procedure :: same
     procedure :: count => count_entities
     procedure :: check_choice
+    procedure :: check_times
     procedure :: copy_before
     procedure :: read_rows
     procedure, private :: refuse
@@ -255,6 +256,17 @@ contains
       call self%refuse("OUTPUT ELEMENTS of the deck are not those of the file", error)
     end if
   end subroutine check_choice
+
+  !> A kill in the midst of writing may have spoilt more than what was written last.
+  subroutine check_times(self, time, error)
+    class(source_t), intent(in) :: self
+    real(wp), intent(in) :: time(:)          !< of the states before the point
+    type(error_t), allocatable, intent(out) :: error
+
+    if (all(time(2:) > time(:size(time) - 1))) return
+    call fail(error, exit_io, "cannot go on from '"//self%reader%path// &
+              "': it was damaged by a kill")
+  end subroutine check_times
 
   !> Copy the groups of the analyses before the point's, with their restart points, under the names
   !> that they have now.

@@ -47,6 +47,7 @@ program run_tests
   use test_output_drawn, only: run_output_drawn_tests
   use test_program, only: run_program_tests
   use test_restart, only: run_restart_tests
+  use test_restart_refused, only: run_restart_refused_tests
   use test_deck_sections, only: run_deck_sections_tests
   use test_section_command, only: run_section_command_tests
   use test_manual, only: run_manual_tests
@@ -107,6 +108,7 @@ program run_tests
   call run_output_drawn_tests()
   call run_program_tests()
   call run_restart_tests()
+  call run_restart_refused_tests()
   call run_deck_sections_tests()
   call run_section_command_tests()
   call run_manual_tests()

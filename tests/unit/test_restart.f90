@@ -1,20 +1,18 @@
-!> spar run --restart: a run that stopped and goes on leaves what one that never stopped does, bit by
-!> bit.
+!> spar run --restart: a run that stopped and goes on leaves what one that never stopped does, bit
+!> by bit.
 module test_restart
   use kinds, only: wp
   use errors, only: error_t
   use text, only: string_t, newline, to_text
   use check, only: run, expect
   use output_reader, only: reader_t, dataset_t
-  use program_runs, only: outcome_t, run_spar, run_shell, scratch, read_text, make_file, &
-                          file_there, same_bytes
+  use program_runs, only: outcome_t, scratch, read_text, make_file, file_there, same_bytes
+  use restart_runs, only: expect_status, mechanism, pendulum, fresh, frame
   use result_reader, only: get_reals, get_integers, get_numbers
   implicit none
   private
 
   public :: run_restart_tests
-
-  character(len=*), parameter :: cases = "tests/cases/restart/", frame = cases//"frame.deck"
 
 contains
 
@@ -32,52 +30,7 @@ contains
     call run("restart: into the same file", test_in_place)
     call run("restart: a point that was written in part", test_torn)
     call run("restart: without /VTKHDF", test_no_drawing)
-    call run("restart: files that do not do", test_wrong_files)
-    call run("restart: decks that differ", test_wrong_decks)
   end subroutine run_restart_tests
-
-  !> Run and compare the exit status.
-  subroutine expect_status(arguments, status, outcome, front)
-    character(len=*), intent(in) :: arguments
-    integer, intent(in) :: status
-    type(outcome_t), intent(out) :: outcome
-    character(len=*), intent(in), optional :: front
-
-    call run_spar("run "//arguments, outcome, front)
-    call expect(outcome%status == status, "status "//to_text(outcome%status)//" instead of "// &
-                to_text(status)//" of: spar run "//arguments//newline//outcome%errors)
-  end subroutine expect_status
-
-  !> Path of a deck: a mechanism with a shaft that turns through two rounds, a hinge that is free, a
-  !> released strain, dampers, loads that jump; then these cards.
-  function mechanism(cards) result(path)
-    character(len=*), intent(in) :: cards
-    character(len=:), allocatable :: path, text
-
-    call read_text(cases//"mechanism.txt", text)
-    path = scratch("mechanism.deck")
-    call make_file(path, text//cards//newline)
-  end function mechanism
-
-  !> Path of a deck of a pendulum that runs fast: many steps in little time.
-  function pendulum(cards) result(path)
-    character(len=*), intent(in) :: cards
-    character(len=:), allocatable :: path
-    character(len=*), parameter :: n = newline
-
-    path = scratch("pendulum.deck")
-    call make_file(path, "NODE 1 0 0 0"//n//"NODE 2 -1 0 0"//n//"TRUSS 1 1 2"//n//"XM 2 1"//n// &
-                   "FIX 1"//n//"FIX 2 Z"//n//"GRAVITY 0 -9.81 0"//n//cards//n)
-  end function pendulum
-
-  !> Path of a result file that is not there.
-  function fresh(name) result(path)
-    character(len=*), intent(in) :: name
-    character(len=:), allocatable :: path
-
-    path = scratch(name)
-    call execute_command_line("rm -f "//path//" "//path//".part "//path//".restart.part")
-  end function fresh
 
   !> All datasets of two files are equal bit by bit, but for the text of the deck.
   subroutine expect_same(first, second, what)
@@ -117,7 +70,7 @@ contains
     if (same) same = size(first%value) == size(second%value) .and. &
                      size(first%extents) == size(second%extents)
     if (same) same = all(first%extents == second%extents)
-    if (same) same = all(transfer(first%value, [integer ::]) == transfer(second%value, [integer ::]))
+    if (same) same = all(transfer(first%value, [0]) == transfer(second%value, [0]))
   end function same_dataset
 
   !> Run with an early end and go on to the late one: the same as at once.
@@ -185,12 +138,11 @@ contains
     real(wp), allocatable :: times(:)
     integer, allocatable :: extents(:)
 
-    call expect_status(pendulum("TRANSIENT TEND 5e4"//tail)//" --quiet -o "//path, status, outcome, &
-                       "timeout --preserve-status --foreground -s "//signal//" 0.6")
+    call expect_status(pendulum("TRANSIENT TEND 5e4"//tail)//" --quiet -o "//path, status, &
+                       outcome, "timeout --preserve-status --foreground -s "//signal//" 1")
     call get_reals(path//trim(merge(".part", "     ", signal == "KILL")), &
                    "analysis/01_transient/time", times, extents)
-    time = 0
-    if (size(times) > 0) time = times(size(times))
+    time = maxval([times, 0.0_wp])   ! the last rows may be missing where a kill met their writing
     call expect(time > 0, "some steps before "//signal)
   end subroutine stop_pendulum
 
@@ -204,8 +156,8 @@ contains
     card = "TRANSIENT TEND "//to_text(ceiling(time) + 1)//tail
     whole = fresh("whole.h5")
     call expect_status(pendulum(card)//" --quiet -o "//whole, 0, outcome)
-    call expect_status(pendulum(card)//" --quiet -o "//scratch("swing.h5")//" --restart "//from, 0, &
-                       outcome)
+    call expect_status(pendulum(card)//" --quiet -o "//scratch("swing.h5")//" --restart "//from, &
+                       0, outcome)
     call expect_same(whole, scratch("swing.h5"), card)
   end subroutine expect_pendulum
 
@@ -224,20 +176,21 @@ contains
     call expect(time > 0, "a time")
   end subroutine test_interrupted
 
-  !> Within an interval of the output no step is lost: the run goes on from the last one.
+  !> Within an interval of the output no step is lost: the run goes on from the last one. Intervals
+  !> are so long that no block of states is written in the time given.
   subroutine test_between()
     type(outcome_t) :: outcome
     character(len=:), allocatable :: path
     real(wp) :: time
 
     path = fresh("swing.h5")
-    call stop_pendulum(path, "TERM", 130, " STEP 0.0001 EVERY 0.05", time)
+    call stop_pendulum(path, "TERM", 130, " STEP 0.0001 EVERY 0.2", time)
     call expect_status(pendulum("TRANSIENT TEND "//to_text(ceiling(time) + 1)// &
-                       " STEP 0.0001 EVERY 0.05")//" -o "//scratch("other.h5")//" --restart "//path, &
-                       0, outcome)
+                                " STEP 0.0001 EVERY 0.2")//" -o "//scratch("other.h5")// &
+                       " --restart "//path, 0, outcome)
     call expect(index(outcome%output, "at time "//to_text(time)//" of") == 0, &
                 "not only from the last state recorded")
-    call expect_pendulum(path, time, " STEP 0.0001 EVERY 0.05")
+    call expect_pendulum(path, time, " STEP 0.0001 EVERY 0.2")
     path = fresh("swing.h5")
     call stop_pendulum(path, "INT", 130, " TOL 1e-6 EVERY 0.1", time)
     call expect_pendulum(path, time, " TOL 1e-6 EVERY 0.1")
@@ -247,10 +200,18 @@ contains
   subroutine test_killed()
     type(outcome_t) :: outcome
     character(len=:), allocatable :: path
+    character(len=*), parameter :: place(2) = ["first ", "second"]
     real(wp) :: time
+    real(wp), allocatable :: point(:)
+    integer, allocatable :: extents(:)
+    integer :: i
 
     path = fresh("swing.h5")
     call stop_pendulum(path, "KILL", 137, " STEP 0.001", time)
+    do i = 1, 2
+      call get_reals(path//".part", "restart/01_transient/"//trim(place(i)), point, extents)
+      call expect(any(point > 0), "there is a point in the "//trim(place(i))//" place")
+    end do
     call expect_status(scratch("pendulum.deck")//" --restart "//path, 5, outcome)
     call expect(index(outcome%errors, "hint: --restart "//path//".part") > 0, outcome%errors)
     call expect_pendulum(path//".part", time, " STEP 0.001")
@@ -271,8 +232,8 @@ contains
     call expect_status(pendulum(kick//"TRANSIENT TEND 0.501 STEP 0.1")//" --quiet -o "//path, 4, &
                        outcome)
     call get_reals(path, "analysis/01_transient/time", before, extents)
-    call expect_status(pendulum(kick//"TRANSIENT TEND 0.501 STEP 1e-6 EVERY 1e-4")//" --quiet -o "// &
-                       path//" --restart "//path, 0, outcome)
+    call expect_status(pendulum(kick//"TRANSIENT TEND 0.501 STEP 1e-6 EVERY 1e-4")// &
+                       " --quiet -o "//path//" --restart "//path, 0, outcome)
     call get_reals(path, "analysis/01_transient/time", behind, extents)
     call expect(size(before) > 4 .and. size(behind) > size(before), "goes on")
     if (size(behind) < size(before)) return
@@ -389,8 +350,8 @@ contains
 
     part = fresh("begun.h5")
     rest = fresh("rest.h5")
-    call expect_status(mechanism("TRANSIENT TEND 0.1 STEP 0.01")//" --quiet --no-vtk -o "//part, 0, &
-                       outcome)
+    call expect_status(mechanism("TRANSIENT TEND 0.1 STEP 0.01")//" --quiet --no-vtk -o "//part, &
+                       0, outcome)
     call expect_status(mechanism("TRANSIENT TEND 0.2 STEP 0.01")//" --quiet -o "//rest// &
                        " --restart "//part, 0, outcome)
     call get_numbers(rest, "VTKHDF/Steps", "NSteps", numbers)
@@ -400,84 +361,5 @@ contains
     call get_numbers(part, "VTKHDF/Steps", "NSteps", numbers)
     call expect(size(numbers) == 0, "none is")
   end subroutine test_no_drawing
-
-  subroutine expect_refused(arguments, status, words)
-    character(len=*), intent(in) :: arguments, words
-    integer, intent(in) :: status
-    type(outcome_t) :: outcome
-    character(len=:), allocatable :: path
-
-    path = fresh("refused.h5")
-    call expect_status(arguments//" --quiet -o "//path, status, outcome)
-    call expect(index(outcome%errors, words) > 0, "'"//words//"' in: "//outcome%errors)
-    call expect(.not. file_there(path), "no file")
-    call expect(.not. file_there(path//".part"), "no part of it")
-  end subroutine expect_refused
-
-  subroutine test_wrong_files()
-    type(outcome_t) :: outcome
-    character(len=:), allocatable :: path, deck
-
-    path = fresh("source.h5")
-    deck = mechanism("TRANSIENT TEND 0.1 STEP 0.01")
-    call expect_refused(deck//" --restart "//path, 5, "there is no such file")
-    call expect_status(deck//" --restart", 2, outcome)
-    call expect(index(outcome%errors, "needs a value") > 0, outcome%errors)
-    call expect_refused(deck//" --restart a.h5 --restart b.h5", 2, "given twice")
-    call make_file(path, "no result file")
-    call expect_refused(deck//" --restart "//path, 5, "it is no HDF5 file")
-    call expect_status("tests/cases/program/cantilever.deck --quiet -o "//path, 0, outcome)
-    call expect_refused("tests/cases/program/cantilever.deck --restart "//path, 5, &
-                        "holds no restart point")
-    call expect_status(deck//" --quiet -o "//path, 0, outcome)
-    call run_shell("'"//"exec"//"' 9<"//path//"; flock 9; ${SPAR_PROGRAM:-build/spar} run "//deck// &
-                   " --quiet --restart "//path//" -o "//scratch("refused.h5"), outcome)
-    call expect(outcome%status == 5 .and. index(outcome%errors, "still writing it") > 0, &
-                "a file in use: "//outcome%errors)
-  end subroutine test_wrong_files
-
-  !> What differs is named; what may differ does not count.
-  subroutine test_wrong_decks()
-    type(outcome_t) :: outcome
-    character(len=:), allocatable :: path, go_on
-
-    path = scratch("source.h5")
-    go_on = " --restart "//path
-    call expect_status(frame//" --quiet -o "//path, 0, outcome)
-    call expect_refused(frame//" -D parts=4"//go_on, 3, "it has 7 nodes, the deck 5")
-    call expect_refused(frame//" -D push=21"//go_on, 3, "loads of the deck differ")
-    call expect_refused(frame//" -D second=0.09"//go_on, 3, "behind TEND 0.09")
-    call expect_refused(frame//" -D first=0.06"//go_on, 3, "analyses before")
-    call expect_edited("T 0.002 TW 0.002", "T 0.002 TW 0.003", 3, "model/sections")
-    call expect_edited("SINE 1 15", "SINE 1 16", 3, "functions of the deck differ")
-    call expect_edited("DAMP 0.1", "DAMP 0.2", 3, "damping of the deck")
-    call expect_edited("IMPERFECTION 1 0.01", "IMPERFECTION 1 0.02", 3, "analyses before")
-    call expect_edited("STATIC STEPS 2", "STATIC STEPS 3", 3, "analyses before")
-    call expect_edited("TRANSIENT TEND {second} STEP 0.0005 EVERY 0.001", "STATIC", 3, &
-                       "is no TRANSIENT")
-    call expect_edited("EVERY 0.001", "EVERY 0.001"//newline//"OUTPUT NODES 1", 3, "OUTPUT NODES")
-    call expect_edited("FIX 1", "FIX 1  # and nothing else", 0, "")
-    call expect_edited("EIGEN MODES 2", "EIGEN MODES 1", 0, "")
-    call expect_edited("EIGEN MODES 2", "XF 2 0 0 9"//newline//"STATIC STEPS 1", 0, "")
-
-  contains
-
-    !> With one phrase of the deck replaced.
-    subroutine expect_edited(old, new, status, words)
-      character(len=*), intent(in) :: old, new, words
-      integer, intent(in) :: status
-      character(len=:), allocatable :: text, deck
-      integer :: at
-
-      call read_text(frame, text)
-      at = index(text, old)
-      call expect(at > 0, "'"//old//"' is in the deck")
-      deck = scratch("edited.deck")
-      call make_file(deck, text(:at - 1)//new//text(at + len(old):))
-      if (status > 0) call expect_refused(deck//go_on, status, words)
-      if (status == 0) call expect_status(deck//" --quiet -o "//scratch("rest.h5")//go_on, 0, outcome)
-    end subroutine expect_edited
-
-  end subroutine test_wrong_decks
 
 end module test_restart
