@@ -38,6 +38,7 @@ program run_tests
   use test_transient_power, only: run_transient_power_tests
   use test_transient_start, only: run_transient_start_tests
   use test_complex_modes, only: run_complex_modes_tests
+  use test_eigen_matrices, only: run_eigen_matrices_tests
   use test_output_hdf5, only: run_output_hdf5_tests
   use test_output_results, only: run_output_results_tests
   use test_output_compare, only: run_output_compare_tests
@@ -99,6 +100,7 @@ program run_tests
   call run_transient_power_tests()
   call run_transient_start_tests()
   call run_complex_modes_tests()
+  call run_eigen_matrices_tests()
   call run_output_hdf5_tests()
   call run_output_results_tests()
   call run_output_compare_tests()
