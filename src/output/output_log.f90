@@ -38,7 +38,6 @@ module output_log
   type :: run_log_t
     private
     integer :: level = log_normal
-    character(len=:), allocatable :: deck    !< path
     type(progress_t) :: progress
     integer(i8) :: start = 0, begun = 0      !< clock, of the run and of the present analysis
     integer :: steps = 0                !< of the present analysis, at most
@@ -79,7 +78,6 @@ contains
     integer :: i
 
     self%level = level
-    self%deck = deck
     call self%progress%open(progress .and. level > log_quiet)
     call system_clock(self%start)
     allocate (self%node(size(model%node)), self%summary(size(model%analysis)))
@@ -382,7 +380,7 @@ contains
     if (path == "" .or. self%analyses == 0) return
     associate (last => self%summary(self%analyses))
       if (last%complete .or. .not. last%restarts) return
-      call say(self, "To go on: spar run "//self%deck//" --restart "//path)
+      call say(self, "To go on: the same command with --restart "//path)
     end associate
   end subroutine close_log
 
