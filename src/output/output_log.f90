@@ -5,7 +5,7 @@ module output_log
   use kinds, only: wp, i8
   use text, only: to_text, plural, string_t
   use model_data, only: model_t, analysis_t, analysis_buckling, analysis_compliance, &
-                        analysis_names, time_analyses, mode_analyses, control_load, control_arc
+                        analysis_transient, analysis_names, time_analyses, mode_analyses, control_load, control_arc
   use program_version, only: program_name, version
   use recorder, only: step_t, iteration_t, compliance_line
   use mode_results, only: modes_t, mode_lines
@@ -26,7 +26,7 @@ module output_log
   type :: summary_t
     character(len=:), allocatable :: name
     integer :: steps = 0, iterations = 0, cutbacks = 0
-    logical :: in_time = .false.
+    logical :: in_time = .false., restarts = .false.
     real(wp) :: factor = 0.0_wp                  !< load factor or time
     real(wp) :: largest = 0.0_wp                 !< displacement at the end
     integer :: where = 0                         !< its node
@@ -154,6 +154,7 @@ contains
         summary%noun = "node"
       end if
       summary%in_time = self%in_time
+      summary%restarts = analysis%kind == analysis_transient
     end associate
     if (self%in_time .and. .not. self%last%time < self%end_time) then
       call say(self, "          is already at its end")
@@ -376,6 +377,11 @@ contains
     end if
     if (self%warnings > 0) call say(self, plural(self%warnings, "warning"))
     if (path /= "") call say(self, "Results in "//path//", "//elapsed(self)//" s")
+    if (path == "" .or. self%analyses == 0) return
+    associate (last => self%summary(self%analyses))
+      if (last%complete .or. .not. last%restarts) return
+      call say(self, "To go on: the same command with --restart "//path)
+    end associate
   end subroutine close_log
 
   function summary_row(self, summary, width) result(line)

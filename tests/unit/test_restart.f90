@@ -99,6 +99,7 @@ contains
     integer, allocatable :: extents(:)
 
     call expect_continued("", "0.3", "0.6", " STEP 0.002")
+    call expect_described(scratch("rest.h5"))
     call get_reals(scratch("rest.h5"), "analysis/01_transient/joints/strain", strain, extents)
     if (size(strain) > 18) then
       call expect(abs(strain(size(strain) - 17) - 40*0.36_wp) < 1.0e-9_wp, "two rounds")
@@ -124,6 +125,28 @@ contains
     call get_reals(scratch("rest.h5"), "analysis/01_transient/time", time, extents)
     call expect(all(abs(time - [(i/100.0_wp, i=0, 34)]) <= 0), "times are round numbers")
   end subroutine test_odd_end
+
+  !> Every dataset of /restart has its row in docs/results.md, with its own words.
+  subroutine expect_described(path)
+    character(len=*), intent(in) :: path
+    type(reader_t) :: reader
+    type(error_t), allocatable :: error
+    type(string_t), allocatable :: paths(:)
+    character(len=:), allocatable :: page, words
+    integer :: i
+
+    call read_text("docs/results.md", page)
+    call reader%open(path, error)
+    if (allocated(error)) return
+    call reader%list("/restart", paths)
+    call expect(size(paths) > 2, "there are datasets in /restart")
+    do i = 1, size(paths)
+      call reader%get_text(paths(i)%s, "description", words)
+      words = "| `"//paths(i)%s//"` | (numbers) | `1` | number | "//words//" |"
+      call expect(index(page, words) > 0, "docs/results.md has the row "//words)
+    end do
+    call reader%close()
+  end subroutine expect_described
 
   subroutine test_adaptive()
     call expect_continued("", "0.3", "0.5", " TOL 1e-3 EVERY 0.05")
@@ -163,17 +186,31 @@ contains
 
   subroutine test_interrupted()
     character(len=:), allocatable :: path
+    type(outcome_t) :: outcome
     real(wp) :: time
-    integer, allocatable :: numbers(:)
+    real(wp), allocatable :: before(:), behind(:)
+    integer, allocatable :: numbers(:), extents(:)
 
     path = fresh("swing.h5")
     call stop_pendulum(path, "INT", 130, " STEP 0.002", time)
+    call expect_status(pendulum("TRANSIENT TEND 5e4 STEP 0.002")//" -o "//scratch("other.h5"), 130, &
+                       outcome, "timeout --preserve-status --foreground -s INT 0.5")
+    call expect(index(outcome%output, "with --restart "//scratch("other.h5")) > 0, &
+                "how to go on is said: "//outcome%output)
     call get_numbers(path, "/", "complete", numbers)
     call expect(size(numbers) == 1 .and. all(numbers == 0), "complete = 0")
     call expect_pendulum(path, time, " STEP 0.002")
     path = fresh("swing.h5")
     call stop_pendulum(path, "TERM", 130, " TOL 1e-5", time)
-    call expect(time > 0, "a time")
+    call expect_status(scratch("pendulum.deck")//" --quiet -o "//scratch("longer.h5")// &
+                       " --restart "//path, 130, outcome, &
+                       "timeout --preserve-status --foreground -s TERM 1")
+    call get_reals(path, "analysis/01_transient/time", before, extents)
+    call get_reals(scratch("longer.h5"), "analysis/01_transient/time", behind, extents)
+    call expect(size(behind) > size(before), "twice interrupted")
+    if (size(behind) > size(before)) then
+      call expect(all(abs(behind(:size(before)) - before) <= 0), "the same states first")
+    end if
   end subroutine test_interrupted
 
   !> Within an interval of the output no step is lost: the run goes on from the last one. Intervals
