@@ -31,7 +31,6 @@ program run_tests
   use test_buckling, only: run_buckling_tests
   use test_eigen, only: run_eigen_tests
   use test_complex_modes, only: run_complex_modes_tests
-  use test_linear_matrices, only: run_linear_matrices_tests
   use test_output_hdf5, only: run_output_hdf5_tests
   use test_output_results, only: run_output_results_tests
   use test_output_compare, only: run_output_compare_tests
@@ -75,7 +74,6 @@ program run_tests
   call run_buckling_tests()
   call run_eigen_tests()
   call run_complex_modes_tests()
-  call run_linear_matrices_tests()
   call run_output_hdf5_tests()
   call run_output_results_tests()
   call run_output_compare_tests()
