@@ -160,6 +160,7 @@ contains
     call expect_close(found, wanted, 1.0e-9_wp, "tangent")
     call expect_close(found, transpose(found), 1.0e-12_wp, "a Hessian")
     call expect(maxval(abs(total(4::7))) > 1.0e-4_wp, "with moments")
+    call system%free()
 
   contains
 
