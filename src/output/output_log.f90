@@ -5,7 +5,8 @@ module output_log
   use kinds, only: wp, i8
   use text, only: to_text, plural, string_t
   use model_data, only: model_t, analysis_t, analysis_buckling, analysis_compliance, &
-                        analysis_transient, analysis_names, time_analyses, mode_analyses, control_load, control_arc
+                        analysis_transient, analysis_names, time_analyses, mode_analyses, &
+                        control_load, control_arc
   use program_version, only: program_name, version
   use recorder, only: step_t, iteration_t, compliance_line
   use mode_results, only: modes_t, mode_lines

@@ -193,7 +193,8 @@ contains
 
     path = fresh("swing.h5")
     call stop_pendulum(path, "INT", 130, " STEP 0.002", time)
-    call expect_status(pendulum("TRANSIENT TEND 5e4 STEP 0.002")//" -o "//scratch("other.h5"), 130, &
+    call expect_status(pendulum("TRANSIENT TEND 5e4 STEP 0.002")//" -o "// &
+                       scratch("other.h5"), 130, &
                        outcome, "timeout --preserve-status --foreground -s INT 0.5")
     call expect(index(outcome%output, "with --restart "//scratch("other.h5")) > 0, &
                 "how to go on is said: "//outcome%output)
