@@ -27,6 +27,7 @@ module analysis_transient
 
   public :: run_transient
 
+  !> Of a step that Newton does not solve: on the way to one stop, or in a row if steps are adaptive.
   integer, parameter :: most_halvings = 10
 
   !> A step may grow and shrink by these factors, and aims at this part of the tolerance.
@@ -176,8 +177,10 @@ contains
     real(wp), dimension(motion%system%coordinates) :: increment, predicted
     real(wp) :: length, ratio
     real(wp) :: jump
+    integer :: halvings
     logical :: last, jumps
 
+    halvings = 0
     do
       whole = .true.
       if (recorder%interrupted()) then
@@ -209,7 +212,8 @@ contains
         h = length*0.5_wp
         if (ratio > 1) h = length*max(most_shrinking, safety*ratio**(-1.0_wp/3))
         record%cutbacks = record%cutbacks + 1
-        if (record%cutbacks > most_halvings .and. .not. ratio > 1) then
+        if (.not. ratio > 1) halvings = halvings + 1
+        if (halvings > most_halvings) then
           whole = .true.
           record%cutbacks = 0
           call fail(error, exit_solve, "no solution found beyond time "//to_text(time)// &
@@ -218,6 +222,7 @@ contains
         end if
         cycle
       end if
+      if (.not. analysis%time_step > 0) halvings = 0
       call enter_step(motion, length, increment, account)
       time = time + length
       if (last) time = jump

@@ -45,8 +45,6 @@ module dynamic_equilibrium
     real(wp) :: mass_damping = 0.0_wp      !< Rayleigh's alpha [1/T]
     real(wp) :: tolerance = 1.0e-10_wp     !< of what is left of the increment after a step
     integer :: iterations = 20
-    logical :: factorized = .false.
-    real(wp) :: factorized_step = 0.0_wp   !< step length of the factors [T]
   end type dynamics_t
 
 contains
@@ -94,7 +92,6 @@ contains
     type(dynamics_t), intent(inout) :: self
 
     call self%solver%free()
-    self%factorized = .false.
   end subroutine release_dynamics
 
   !> Advance by h to the time at which the patterns stand at `level`. After a failure the state is

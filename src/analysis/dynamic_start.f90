@@ -9,6 +9,7 @@ module dynamic_start
   use system_motion, only: target_rates
   use system_rates, only: convective_rates
   use system_dynamics, only: add_inertia
+  use system_inertia, only: find_massive
   use rotation, only: identity3
   use dynamic_equilibrium, only: dynamics_t
   use start_assembly, only: assemble_model
@@ -51,6 +52,7 @@ contains
     type(dynamics_t), intent(inout) :: motion
     type(error_t), allocatable, intent(out) :: error
     real(wp) :: solution(motion%system%equations()), share, demand(size(motion%iterate%strain))
+    logical :: massive(motion%system%coordinates)
     integer :: i, k
 
     motion%flow%acceleration = 0
@@ -73,9 +75,10 @@ contains
     call motion%solver%factorize(motion%iterate%values, error)
     if (.not. allocated(error)) call motion%solver%solve(solution, error)
     if (allocated(error)) return
+    call find_massive(motion%masses, motion%iterate%state, massive)
     do k = 1, motion%system%coordinates
       associate (at => motion%system%unknown(k))
-        if (at > 0 .and. has_mass(k)) motion%flow%acceleration(k) = share*solution(at)
+        if (at > 0 .and. massive(k)) motion%flow%acceleration(k) = share*solution(at)
       end associate
     end do
     do k = 1, size(demand)
@@ -85,20 +88,6 @@ contains
     end do
     motion%flow%pseudo = motion%flow%acceleration
     call assemble_at_rest(motion, level)
-
-  contains
-
-    !> Whether anything resists the acceleration of a coordinate.
-    pure logical function has_mass(k)
-      integer, intent(in) :: k
-      integer :: b
-
-      has_mass = .false.
-      do b = 1, motion%masses%bodies
-        if (any(motion%masses%coordinate(:, b) == k)) has_mass = .true.
-      end do
-    end function has_mass
-
   end subroutine restart_motion
 
   subroutine assemble_at_rest(motion, level)

@@ -4,7 +4,7 @@ module energy_account
   use kinds, only: wp
   use model_data, only: model_t
   use nodal_state, only: node_coordinates
-  use system_dynamics, only: momentum
+  use system_dynamics, only: kinetic_energy, momentum
   use system_results, only: results_t, get_results, joint_strains
   use dynamic_equilibrium, only: dynamics_t
   implicit none
@@ -26,11 +26,8 @@ contains
   subroutine open_account(motion, account)
     type(dynamics_t), intent(in) :: motion
     type(account_t), intent(out) :: account
-    real(wp) :: kinetic, total(6)
 
-    call momentum(motion%system, motion%masses, motion%iterate%state, motion%flow%velocity, &
-                  kinetic, total)
-    account%opening = kinetic + strain_energy(motion)
+    account%opening = motion_energy(motion) + strain_energy(motion)
     call reopen_account(motion, account)
   end subroutine open_account
 
@@ -78,14 +75,17 @@ contains
   !> Power of the dampers: of strains, and of the mass.
   pure real(wp) function lost_power(motion) result(power)
     type(dynamics_t), intent(in) :: motion
-    real(wp) :: kinetic, total(6)
 
     power = dot_product(motion%iterate%viscous, motion%iterate%rate)
-    if (.not. motion%mass_damping > 0) return
-    call momentum(motion%system, motion%masses, motion%iterate%state, motion%flow%velocity, &
-                  kinetic, total)
-    power = power + 2*motion%mass_damping*kinetic
+    if (motion%mass_damping > 0) power = power + 2*motion%mass_damping*motion_energy(motion)
   end function lost_power
+
+  pure real(wp) function motion_energy(motion) result(energy)
+    type(dynamics_t), intent(in) :: motion
+
+    energy = kinetic_energy(motion%system, motion%masses, motion%iterate%state, &
+                            motion%flow%velocity)
+  end function motion_energy
 
   !> Results at the present state of a motion: those of an equilibrium, rates, energies, momentum.
   subroutine motion_results(model, motion, account, results)

@@ -15,7 +15,7 @@ module system_dynamics
   implicit none
   private
 
-  public :: shares_t, inertia_forces, add_inertia, momentum
+  public :: shares_t, inertia_forces, add_inertia, kinetic_energy, momentum
 
   !> What an increment of the coordinates does to velocity and acceleration.
   type :: shares_t
@@ -146,6 +146,19 @@ contains
       end associate
     end do
   end subroutine turn_columns
+
+  !> Of all masses [F L].
+  pure real(wp) function kinetic_energy(system, masses, state, velocity) result(energy)
+    type(system_t), intent(in) :: system
+    type(masses_t), intent(in) :: masses
+    type(state_t), intent(in) :: state
+    real(wp), intent(in) :: velocity(:)
+    real(wp), dimension(system%coordinates, 1) :: motion, product
+
+    motion(:, 1) = velocity
+    call mass_product(masses, state, motion, product)
+    energy = 0.5_wp*dot_product(velocity, product(:, 1))
+  end function kinetic_energy
 
   !> Kinetic energy, and linear and angular momentum about the origin.
   pure subroutine momentum(system, masses, state, velocity, energy, total)

@@ -15,7 +15,7 @@ module system_inertia
   private
 
   public :: masses_t, new_masses, assemble_mass, mass_product, rigid_motion, mass_centre
-  public :: body_coordinates, truss_density, body_size
+  public :: truss_density, body_size, find_massive
 
 contains
 
@@ -187,6 +187,23 @@ contains
     end do
   end subroutine assemble_mass
 
+  !> By coordinate: whether any mass resists its acceleration alone.
+  pure subroutine find_massive(masses, state, massive)
+    type(masses_t), intent(in) :: masses
+    type(state_t), intent(in) :: state
+    logical, intent(out) :: massive(:)
+    real(wp) :: mass(body_size, body_size)
+    integer :: k, i
+
+    massive = .false.
+    do k = 1, masses%bodies
+      call body_mass(masses, k, state, mass)
+      do i = 1, masses%coordinates(k)
+        if (mass(i, i) > 0) massive(masses%coordinate(i, k)) = .true.
+      end do
+    end do
+  end subroutine find_massive
+
   !> Mass matrix of a body in its first coordinates.
   pure subroutine body_mass(masses, k, state, mass)
     type(masses_t), intent(in) :: masses
@@ -207,15 +224,6 @@ contains
                                mass(:6, :6), rate, place)
     end if
   end subroutine body_mass
-
-  !> Coordinates of a body.
-  pure function body_coordinates(masses, k) result(at)
-    type(masses_t), intent(in) :: masses
-    integer, intent(in) :: k
-    integer :: at(masses%coordinates(k))
-
-    at = masses%coordinate(:size(at), k)
-  end function body_coordinates
 
   !> Mass times motions, by coordinate, held ones included.
   pure subroutine mass_product(masses, state, motion, product)
