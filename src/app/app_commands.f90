@@ -200,7 +200,8 @@ contains
     shown%analysis(1)%kind = analysis_kind_check
     shown%analysis(1)%modes = check%modes%modes
     call recorder%open(options, shown, error)
-    if (.not. allocated(error)) call recorder%begin(1, shown%analysis(1), error)
+    if (allocated(error)) return
+    call recorder%begin(1, shown%analysis(1), error)
     if (.not. allocated(error)) call recorder%modes(check%modes, error)
     if (.not. allocated(error)) call recorder%finish(.true., error)
     call recorder%close(.not. allocated(error), second)

@@ -130,7 +130,7 @@ contains
       "NaN differs from everything. What is below R/1000 of the largest entry of a dataset (its", &
       "columns of one dimension) counts as round-off. Whole numbers and texts have to be equal.", &
       "Modes are compared up to their sign, those of equal eigenvalues as the space they span.", &
-      "/VTKHDF and convergence are left out unless --only names them.", &
+      "/VTKHDF, /restart and convergence are left out unless --only names them.", &
       "Exit status: 0 no differences, 1 some, 2 usage, 5 a file cannot be read"
   end subroutine print_compare
 

@@ -3,6 +3,7 @@ module deck_manual
   use text, only: upper, joined, nearest_word
   use deck_handler, only: keyword_t
   use deck_keywords, only: keywords
+  use deck_wording, only: alternatives
   use deck_usage, only: usage_t, argument_t, parse_usage, kind_real, kind_choice, &
                         kind_id, kind_node, kind_element, kind_nodes, kind_elements, kind_count, &
                         kind_mode, kind_component, kind_literal
@@ -168,25 +169,6 @@ contains
       phrase = "word"
     end select
   end function kind_text
-
-  !> `ON/OFF` as `ON or OFF`.
-  pure function alternatives(choice) result(phrase)
-    character(len=*), intent(in) :: choice
-    character(len=:), allocatable :: phrase
-    integer :: i, last
-
-    phrase = ""
-    last = index(choice, "/", back=.true.)
-    do i = 1, len(choice)
-      if (choice(i:i) /= "/") then
-        phrase = phrase//choice(i:i)
-      else if (i < last) then
-        phrase = phrase//", "
-      else if (i < len(choice)) then
-        phrase = phrase//" or "
-      end if
-    end do
-  end function alternatives
 
   !> ` [F L^-2]`; nothing for a number without dimension.
   pure function dimension_text(unit) result(phrase)

@@ -4,7 +4,7 @@ module deck_motions
   use text, only: to_text
   use diagnostics, only: place_t
   use lookup_tables, only: id_table_t
-  use model_data, only: motion_t, static_analyses, control_displacement
+  use model_data, only: motion_t, static_analyses, time_analyses, control_displacement
   use model_functions, only: function_value
   use deck_draft, only: draft_t, record_t, record_coordinate, record_strain
   use deck_elements, only: modes_of, find_range, is_whole
@@ -251,6 +251,8 @@ contains
       associate (earlier => draft%model%pattern(q)%motion(targets%motion(n)))
         call find_factor(draft, q, factor, known)
         problem = ""
+        if (earlier%function > 0 .and. in_time(draft, q)) problem = "what its earlier motion "// &
+          "has added changes with time"
         if (.not. known) problem = "what its earlier motion has added is not known, since that "// &
                                    "STATIC does not end at a given factor"
         if (earlier%euler .neqv. motion%euler) problem = "an earlier motion gives "// &
@@ -263,6 +265,20 @@ contains
       end associate
     end do
   end subroutine subtract_earlier
+
+  !> Whether a motion in time took a pattern as its own.
+  pure logical function in_time(draft, pattern)
+    type(draft_t), intent(in) :: draft
+    integer, intent(in) :: pattern
+    integer :: k
+
+    in_time = .false.
+    do k = 1, size(draft%model%analysis)
+      associate (analysis => draft%model%analysis(k))
+        if (analysis%pattern == pattern .and. any(time_analyses == analysis%kind)) in_time = .true.
+      end associate
+    end do
+  end function in_time
 
   !> The factor that a pattern keeps; not known where a displacement decides.
   pure subroutine find_factor(draft, pattern, factor, known)

@@ -1,5 +1,6 @@
 !> Cards about what is put out: COMPLIANCE, OUTPUT; and DAMP.
 module deck_output_cards
+  use text, only: to_text
   use model_data, only: analysis_t, analysis_compliance, translational
   use deck_card, only: card_t
   use deck_draft, only: draft_t, record_t, record_compliance, record_kept_nodes, &
@@ -184,6 +185,9 @@ contains
     do i = 1, choice%found
       associate (beam => draft%beam(choice%index(i)))
         first = beam%first_member
+        if (beam%joint > 0 .and. .not. choice%loose(i)) call draft%report%add_error( &
+          choice%place(i), "element "//to_text(beam%id)//" is a joint: those are always kept", &
+          "OUTPUT ELEMENTS chooses among beams")
         if (first == 0) cycle
         if (choice%part(i) > 0) then
           mark(first + choice%part(i) - 1) = .true.

@@ -86,7 +86,7 @@ contains
     type(finding_t), intent(in) :: finding(:)
     integer :: i
 
-    if (size(finding) < 2) return
+    if (size(finding) < 2 .or. all([(finding(i)%card == "", i=1, size(finding))])) return
     write (unit, "(a)") "together these would remove them:"
     do i = 1, size(finding)
       if (finding(i)%card /= "") write (unit, "(a)") "    "//finding(i)%card

@@ -5,8 +5,7 @@ module output_compare
   use errors, only: error_t, fail, exit_usage
   use text, only: string_t, to_text, quoted
   use output_reader, only: reader_t, dataset_t, kind_other, kind_whole, kind_text
-  use output_differences, only: differences_t, tolerance_t, column_scales, index_text, &
-                                relative_error, noise
+  use output_differences, only: differences_t, tolerance_t, column_scales, index_text, noise
   use mode_compare, only: is_mode_dataset, compare_modes
   implicit none
   private
@@ -277,7 +276,7 @@ contains
     integer(i8) :: i
     integer :: k
 
-    allowed = max(tolerance%absolute, noise*tolerance%relative*maxval(column_scales(second)))
+    allowed = max(tolerance%absolute, noise*tolerance%relative*maxval(max(column_scales(first), column_scales(second))))
     do i = 1, size(first%value, kind=i8), 2
       associate (a => first%value(i:i + 1), b => second%value(i:i + 1))
         if (all(ieee_is_finite(a)) .and. all(ieee_is_finite(b))) then

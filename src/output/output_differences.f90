@@ -9,7 +9,7 @@ module output_differences
   private
 
   public :: differences_t, tolerance_t, print_differences, print_differences_json
-  public :: column_scales, index_text, relative_error
+  public :: column_scales, index_text
 
   !> Round-off: numbers that differ by this part of the relative tolerance, measured against the
   !> largest entry of their dimension in the dataset, are equal.

@@ -1,6 +1,7 @@
 !> A recorder that keeps everything in memory, and a deck run with it.
 module memory_recorder
   use kinds, only: wp
+  use check, only: expect
   use errors, only: error_t
   use model_data, only: model_t, analysis_t, setting_t
   use diagnostics, only: report_t
@@ -13,7 +14,7 @@ module memory_recorder
   implicit none
   private
 
-  public :: memory_t, run_deck, run_model
+  public :: memory_t, run_deck, run_sound, run_model, node_index
 
   type, extends(recorder_t) :: memory_t
     integer :: steps = 0
@@ -72,6 +73,27 @@ contains
     end if
     call run_model(model, memory, error)
   end subroutine run_deck
+
+  !> Run a deck and complain of any error.
+  subroutine run_sound(name, memory, model, settings)
+    character(len=*), intent(in) :: name
+    type(memory_t), intent(inout) :: memory
+    type(model_t), intent(out) :: model
+    character(len=*), intent(in), optional :: settings(:)
+    type(error_t), allocatable :: error
+
+    call run_deck(name, memory, model, error, settings)
+    if (.not. allocated(error)) return
+    call expect(.false., "no error in "//name//", got: "//error%message)
+  end subroutine run_sound
+
+  !> Index of the node with an id (part 0).
+  pure integer function node_index(model, id)
+    type(model_t), intent(in) :: model
+    integer, intent(in) :: id
+
+    node_index = findloc(model%node%id == id .and. model%node%part == 0, .true., 1)
+  end function node_index
 
   !> Run a model from the start.
   subroutine run_model(model, memory, error)

@@ -85,6 +85,7 @@ contains
     if (allocated(error)) return
     call expect_close(memory%record([12, 32, 72])%factor, wanted, 5.1e-5_wp, "load factors")
     call run_deck("../rotating/channel", memory, model, error, ["mass=CONSISTENT"])
+    call expect(.not. allocated(error), "no error with the consistent mass")
     if (allocated(error)) return
     call expect_close(memory%record([12, 32, 72])%factor/wanted, [1, 1, 1]*1.0_wp, 2.0e-3_wp, &
                       "consistent inertia")

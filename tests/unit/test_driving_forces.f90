@@ -49,6 +49,7 @@ contains
     call solve("rigid_limit", settings, rigid, model)
     call solve("rigid_limit", settings(first:), stiff, model)
     call expect(rigid%steps == 5 .and. stiff%steps == 5, "all steps")
+    call expect(size(rigid%spectrum) == 1 .and. size(stiff%spectrum) == 1, "frequencies of both")
     if (size(rigid%spectrum) /= 1 .or. size(stiff%spectrum) /= 1) return
     associate (a => rigid%results(5), b => stiff%results(5))
       call expect(norm2(a%displacement(:, 4)) > 0.5_wp, "large displacements")

@@ -285,6 +285,7 @@ contains
     call drive(model, 1, 5.0_wp, 0.0_wp, 0.0_wp)
     call add_analysis(model, analysis_kinematic, 0.1_wp, 0.1_wp)
     call solve(model, memory)
+    call expect(memory%steps == 2, "start and end")
     if (memory%steps < 2) return
     others = four_bar_angles(base, crank, coupler, rocker, 5.7_wp)
     call expect_close(model%node(c)%position + memory%results(1)%displacement(:, c), &

@@ -6,7 +6,7 @@ module test_limits
   use check, only: run, expect, expect_close
   use errors, only: error_t, exit_deck, exit_solve, exit_interrupt
   use model_data, only: model_t
-  use memory_recorder, only: memory_t, run_deck
+  use memory_recorder, only: memory_t, run_sound, node_index, run_deck
   implicit none
   private
 
@@ -23,33 +23,12 @@ contains
     call run("limits: large displacement increments in one step", one_step)
   end subroutine run_limits_tests
 
-  !> Run and complain of any error.
-  subroutine solve(name, memory, model, settings)
-    character(len=*), intent(in) :: name
-    type(memory_t), intent(inout) :: memory
-    type(model_t), intent(out) :: model
-    character(len=*), intent(in), optional :: settings(:)
-    type(error_t), allocatable :: error
-
-    call run_deck(name, memory, model, error, settings)
-    if (.not. allocated(error)) return
-    call expect(.false., "no error in "//name//", got: "//error%message)
-  end subroutine solve
-
-  !> Index of the node with an id (part 0).
-  pure integer function node(model, id)
-    type(model_t), intent(in) :: model
-    integer, intent(in) :: id
-
-    node = findloc(model%node%id == id .and. model%node%part == 0, .true., 1)
-  end function node
-
   subroutine redundant()
     type(memory_t) :: memory
     type(model_t) :: model
     integer :: i
 
-    call solve("redundant", memory, model)
+    call run_sound("redundant", memory, model)
     call expect(size(memory%remarks) == 6, "six warnings")
     do i = 1, size(memory%remarks)
       call expect(index(memory%remarks(i)%s, "warning: overconstrained, "//to_text(i)// &
@@ -59,7 +38,7 @@ contains
                   memory%remarks(i)%s)
     end do
     if (memory%steps == 0) return
-    call expect_close(memory%results(1)%displacement(3, node(model, 4)), 8.0e-6_wp/(3*1000*2), &
+    call expect_close(memory%results(1)%displacement(3, node_index(model, 4)), 8.0e-6_wp/(3*1000*2), &
                       1.0e-14_wp, "the arm bends alone, EIz in its vertical plane")
   end subroutine redundant
 
@@ -116,14 +95,14 @@ contains
     call expect(.not. any(memory%completed), "and is not complete")
   end subroutine interruption
 
-  !> Theory 8: PL**2/EI = 5 in one step takes 7 iterations in mixed form, whatever the mesh.
+  !> The whole roll-up in one step: increments that turn elements too far are shortened.
   subroutine one_step()
     type(memory_t) :: memory
     type(model_t) :: model
 
-    call solve("rollup", memory, model, ["steps=1", "n=40   "])
+    call run_sound("rollup", memory, model, ["steps=1", "n=40   "])
     if (memory%steps == 0) return
-    call expect_close(memory%results(1)%displacement(:, node(model, 2)), [-1, 0, 0]*1.0_wp, &
+    call expect_close(memory%results(1)%displacement(:, node_index(model, 2)), [-1, 0, 0]*1.0_wp, &
                       1.0e-9_wp, "a full circle in one step")
   end subroutine one_step
 
