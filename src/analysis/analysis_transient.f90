@@ -27,7 +27,7 @@ module analysis_transient
 
   public :: run_transient
 
-  !> Of a step that Newton does not solve: on the way to one stop, or in a row if steps are adaptive.
+  !> Of a step that Newton does not solve: on the way to one stop, or in a row if adaptive.
   integer, parameter :: most_halvings = 10
 
   !> A step may grow and shrink by these factors, and aims at this part of the tolerance.

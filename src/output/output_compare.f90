@@ -276,7 +276,8 @@ contains
     integer(i8) :: i
     integer :: k
 
-    allowed = max(tolerance%absolute, noise*tolerance%relative*maxval(max(column_scales(first), column_scales(second))))
+    allowed = max(tolerance%absolute, noise*tolerance%relative* &
+                  maxval(max(column_scales(first), column_scales(second))))
     do i = 1, size(first%value, kind=i8), 2
       associate (a => first%value(i:i + 1), b => second%value(i:i + 1))
         if (all(ieee_is_finite(a)) .and. all(ieee_is_finite(b))) then

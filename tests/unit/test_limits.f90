@@ -6,7 +6,7 @@ module test_limits
   use check, only: run, expect, expect_close
   use errors, only: error_t, exit_deck, exit_solve, exit_interrupt
   use model_data, only: model_t
-  use memory_recorder, only: memory_t, run_sound, node_index, run_deck
+  use memory_recorder, only: memory_t, run_sound, node => node_index, run_deck
   implicit none
   private
 
@@ -38,7 +38,7 @@ contains
                   memory%remarks(i)%s)
     end do
     if (memory%steps == 0) return
-    call expect_close(memory%results(1)%displacement(3, node_index(model, 4)), 8.0e-6_wp/(3*1000*2), &
+    call expect_close(memory%results(1)%displacement(3, node(model, 4)), 8.0e-6_wp/(3*1000*2), &
                       1.0e-14_wp, "the arm bends alone, EIz in its vertical plane")
   end subroutine redundant
 
@@ -102,7 +102,7 @@ contains
 
     call run_sound("rollup", memory, model, ["steps=1", "n=40   "])
     if (memory%steps == 0) return
-    call expect_close(memory%results(1)%displacement(:, node_index(model, 2)), [-1, 0, 0]*1.0_wp, &
+    call expect_close(memory%results(1)%displacement(:, node(model, 2)), [-1, 0, 0]*1.0_wp, &
                       1.0e-9_wp, "a full circle in one step")
   end subroutine one_step
 

@@ -4,7 +4,7 @@ module test_path
   use check, only: run, expect, expect_close
   use errors, only: error_t, exit_solve
   use model_data, only: model_t
-  use memory_recorder, only: memory_t, run_deck, run_sound, node_index
+  use memory_recorder, only: memory_t, run_deck, run_sound, node => node_index
   use recorder, only: critical_limit
   implicit none
   private
@@ -59,7 +59,7 @@ contains
                       "second limit")
     call expect(all(memory%critical%kind == critical_limit), "of the kind limit point")
     allocate (v(n))
-    v(:) = [(-memory%results(i)%displacement(3, node_index(model, 3)), i=1, n)]
+    v(:) = [(-memory%results(i)%displacement(3, node(model, 3)), i=1, n)]
     associate (back => [(v(i) > v(i - 1) .and. v(i) > v(i + 1), i=2, n - 1)], &
                forth => [(v(i) < v(i - 1) .and. v(i) < v(i + 1), i=2, n - 1)])
       call expect(count(back) == 1 .and. count(forth) == 1, "v turns back once and forth once")

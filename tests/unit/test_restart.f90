@@ -105,7 +105,8 @@ contains
     if (size(strain) <= 18) return
     call expect(abs(strain(size(strain) - 17) - 40*0.36_wp) < 1.0e-9_wp, "two rounds")
     call get_reals(scratch("begun.h5"), "analysis/01_transient/joints/strain", strain, extents)
-    call expect(size(strain) > 18 .and. maxval(strain) < 6.0_wp, "the second begins behind the restart")
+    call expect(size(strain) > 18 .and. maxval(strain) < 6.0_wp, &
+                "the second begins behind the restart")
     call expect_continued("", "0.12", "0.6", " STEP 0.003 RHOINF 0.5")
   end subroutine test_later_end
 

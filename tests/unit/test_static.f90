@@ -5,7 +5,7 @@ module test_static
   use model_data, only: model_t
   use rotation, only: cross
   use system_results, only: results_t
-  use memory_recorder, only: memory_t, run_sound, node_index
+  use memory_recorder, only: memory_t, run_sound, node => node_index
   implicit none
   private
 
@@ -67,7 +67,7 @@ contains
     call run_sound("elastica", memory, model)
     call expect(memory%steps == 15, "15 steps")
     if (memory%steps /= 15) return
-    tip = node_index(model, 2)
+    tip = node(model, 2)
     do i = 1, 15
       associate (r => memory%results(i))
         factor = merge(0.2_wp*i, merge(0.5_wp*(i - 3), real(i - 5, wp), i <= 7), i <= 5)
@@ -95,7 +95,7 @@ contains
       write (setting, "('angle=', f20.17)") angle
       call run_sound("rollup", memory, model, [setting])
       if (memory%steps /= 10) cycle
-      tip = node_index(model, 2)
+      tip = node(model, 2)
       across = [0.0_wp, sin(angle), cos(angle)]
       call expect_close(memory%results(5)%displacement(:, tip), 2/pi*across - [1, 0, 0], &
                         3.3e-6_wp, "tip of the half circle")
@@ -113,7 +113,7 @@ contains
 
     call run_sound("reissner", memory, model)
     if (memory%steps == 0) return
-    tip = node_index(model, 2)
+    tip = node(model, 2)
     associate (r => memory%results(memory%steps))
       call expect_close([r%displacement(1, tip)/(-0.15097114423924163_wp), &
                          r%displacement(3, tip)/0.7105685978535591_wp, &
@@ -151,12 +151,12 @@ contains
       call run_sound("torsion", memory, model, [setting])
       if (memory%steps == 0) return
       associate (r => memory%results(1))
-        got(1) = 2*r%euler(2, node_index(model, 3))
-        got(2) = r%warping(node_index(model, 3))
+        got(1) = 2*r%euler(2, node(model, 3))
+        got(2) = r%warping(node(model, 3))
         got(3) = r%force_p(7, member(model, 1, 1))
         got(4) = r%force_p(7, member(model, 2, 1))
-        got(5) = 2*r%euler(2, node_index(model, 2))
-        call expect_close(r%reaction(7, node_index(model, 1))/got(3), -1.0_wp, 1.0e-9_wp, &
+        got(5) = 2*r%euler(2, node(model, 2))
+        call expect_close(r%reaction(7, node(model, 1))/got(3), -1.0_wp, 1.0e-9_wp, &
                           "bimoment of the clamp")
         call expect_close(r%force_p(4, member(model, 2, 1)), 1.0e-3_wp, 1.0e-9_wp, "torque")
       end associate
@@ -175,7 +175,7 @@ contains
 
     call run_sound("bend45", memory, model)
     if (memory%steps /= 6) return
-    associate (tip => node_index(model, 9))
+    associate (tip => node(model, 9))
       do i = 1, 2
         call expect_close((memory%results(3*i)%displacement(:, tip) + model%node(tip)%position) &
                           /wanted(:, i), [1, 1, 1]*1.0_wp, 6.0e-3_wp, "tip over the exact one")
@@ -193,7 +193,7 @@ contains
     associate (r => memory%results(1))
       call expect_close(-1.0e6_wp*r%marker(3, 2)/(1.43946248968686_wp + 0.0041558409390823_wp), &
                         1.0_wp, 2.0e-3_wp, "deflection of the shear centre")
-      call expect_close(-2.0e6_wp*r%euler(2, node_index(model, 2))/0.010434248783158415_wp, 1.0_wp, &
+      call expect_close(-2.0e6_wp*r%euler(2, node(model, 2))/0.010434248783158415_wp, 1.0_wp, &
                         2.0e-3_wp, "twist")
     end associate
   end subroutine small_channel
@@ -221,16 +221,16 @@ contains
     call run_sound("rigid_frame", memory, model)
     if (memory%steps == 0) return
     associate (r => memory%results(1))
-      n = [node_index(model, 3), node_index(model, 4)]
-      call expect_close(r%displacement(:, [node_index(model, 2), n(1)]), &
+      n = [node(model, 3), node(model, 4)]
+      call expect_close(r%displacement(:, [node(model, 2), n(1)]), &
                         reshape([0, 0, 0, 0, 0, 0]*1.0_wp, [3, 2]), 1.0e-13_wp, "rigid parts")
       force(:, 1) = [2, -3, -5]
       force(:, 2) = [1.0_wp, 0.5_wp, -2.0_wp]
       place = model%node(n(2))%position + r%displacement(:, n(2))
       moment = [7, 11, 13] + cross(model%node(n(1))%position, force(:, 1)) &
                + cross(place, force(:, 2))
-      call expect_close(r%reaction(1:3, node_index(model, 1)), -sum(force, 2), 1.0e-9_wp, "clamp's force")
-      call expect_close(r%reaction(4:6, node_index(model, 1)), -moment, 1.0e-8_wp, "moment of the clamp")
+      call expect_close(r%reaction(1:3, node(model, 1)), -sum(force, 2), 1.0e-9_wp, "clamp's force")
+      call expect_close(r%reaction(4:6, node(model, 1)), -moment, 1.0e-8_wp, "moment of the clamp")
       call expect_close(r%stress(1, 1), -7.0_wp, 1.0e-9_wp, "multiplier of the column's elongation")
     end associate
   end subroutine rigid_frame
@@ -244,7 +244,7 @@ contains
     call run_sound("release", memory, model)
     if (memory%steps == 0) return
     u = 1.0e-8_wp*[3, 5]/(3*[3, 2]*(1.0_wp/8 + 1.0_wp/27))
-    associate (r => memory%results(1), middle => node_index(model, 2))
+    associate (r => memory%results(1), middle => node(model, 2))
       call expect_close(r%displacement(2:3, middle), u, 1.0e-9_wp*u(2), "deflection")
       call expect_close(2*r%euler(3:4, middle), [0.5_wp*u(2), -0.5_wp*u(1)], 1.0e-9_wp*u(2), &
                         "slope of the right cantilever")
@@ -260,15 +260,15 @@ contains
 
     call run_sound("weight", memory, model)
     if (memory%steps == 0) return
-    associate (r => memory%results(1), tip => node_index(model, 2))
+    associate (r => memory%results(1), tip => node(model, 2))
       call expect_close(r%displacement(3, tip), -q*625/24, 1.0e-9_wp*q*625/24, "deflection")
       call expect_close(2*r%euler(3, tip), q*125/18, 1.0e-9_wp*q*125/18, "slope")
-      call expect_close(r%reaction(3, node_index(model, 1)), 5*q, 1.0e-12_wp*q, "reaction")
-      call expect_close(r%reaction(5, node_index(model, 1)), -12.5_wp*q, 1.0e-7_wp*q, "clamp's moment")
+      call expect_close(r%reaction(3, node(model, 1)), 5*q, 1.0e-12_wp*q, "reaction")
+      call expect_close(r%reaction(5, node(model, 1)), -12.5_wp*q, 1.0e-7_wp*q, "clamp's moment")
     end associate
     call run_sound("weight", memory, model, ["mass=LUMPED"])
     if (memory%steps == 0) return
-    call expect_close(memory%results(1)%displacement(3, node_index(model, 2)), &
+    call expect_close(memory%results(1)%displacement(3, node(model, 2)), &
                       -lumped_deflection(q), 1.0e-9_wp*q*30, "lumped weight")
   end subroutine weight
 
@@ -293,7 +293,7 @@ contains
       call run_sound("../../bench/cantilever", memory, model, [mesh(i)])
       call expect(memory%steps == 5, "all steps")
       if (memory%steps /= 5) cycle
-      tip = node_index(model, 2)
+      tip = node(model, 2)
       call expect_close((memory%results(5)%displacement(1:2, tip) + [10, 0] - wanted)/10, &
                         [0, 0]*1.0_wp, tolerance(i), "tip "//mesh(i))
       call expect(sum(memory%record(:5)%iterations) <= 25, "at most 25 iterations")
@@ -351,10 +351,10 @@ contains
     k = sqrt(git/eiw)
     phi = 1000/(2*git*k)*(1.5_wp*k - tanh(1.5_wp*k))
     associate (r => memory%results(1))
-      call expect_close(2.0e6_wp*r%euler(2, node_index(model, 2))/phi, 1.0_wp, 1.0e-4_wp, "twist")
-      call expect_close(r%reaction(4, [node_index(model, 1), node_index(model, 3)]), [-5, -5]*1.0e-4_wp, &
+      call expect_close(2.0e6_wp*r%euler(2, node(model, 2))/phi, 1.0_wp, 1.0e-4_wp, "twist")
+      call expect_close(r%reaction(4, [node(model, 1), node(model, 3)]), [-5, -5]*1.0e-4_wp, &
                         1.0e-12_wp, "torques of the forks")
-      call expect_close(r%euler(2, node_index(model, 1)), 0.0_wp, 1.0e-16_wp, "held rotation")
+      call expect_close(r%euler(2, node(model, 1)), 0.0_wp, 1.0e-16_wp, "held rotation")
     end associate
   end subroutine forks
 
@@ -365,10 +365,10 @@ contains
     integer :: tip
 
     call run_sound("patch", one, model)
-    tip = node_index(model, 2)
+    tip = node(model, 2)
     call run_sound("patch", five, model, ["n=5"])
     if (one%steps == 0 .or. five%steps == 0) return
-    associate (a => one%results(1), b => five%results(1), end => node_index(model, 6))
+    associate (a => one%results(1), b => five%results(1), end => node(model, 6))
       call expect_close(a%displacement(:, tip)/b%displacement(:, end), [1, 1, 1]*1.0_wp, &
                         1.0e-6_wp, "displacement")
       call expect_close(a%euler(2:4, tip)/b%euler(2:4, end), [1, 1, 1]*1.0_wp, 1.0e-6_wp, "turn")
