@@ -321,7 +321,7 @@ contains
                                                      motion%system%multiplier > 0)) &
                                         /motion%system%length
       end associate
-      found = course%record%last%constraint <= bridge_tolerance
+      found = course%record%last%constraint <= bridge_tolerance .and. motion%iterate%invalid == 0
       if (found) return
       call go_back(course%near, course%time, course%level, motion)
       course%bridged = .false.

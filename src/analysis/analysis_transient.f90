@@ -229,13 +229,13 @@ contains
       record%size = length
       record%last = outcome%last
       if (.not. analysis%time_step > 0) then
-        h = max(h, length)
+        length = length*min(most_growth, safety*max(ratio, 1.0e-3_wp)**(-1.0_wp/3))
         if (.not. last .or. ratio > safety**3) h = length
-        h = h*min(most_growth, safety*max(ratio, 1.0e-3_wp)**(-1.0_wp/3))
+        h = max(h, length)
       end if
       if (jumps) then
         where (motion%system%timed) level = time
-        call restart_motion(part_of_step*length, level, motion, error)
+        call restart_motion(part_of_step*record%size, level, motion, error)
         if (allocated(error)) return
         call reopen_account(motion, account)
       end if

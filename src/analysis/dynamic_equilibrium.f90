@@ -148,6 +148,11 @@ contains
     call assemble_motion(self, level, increment, next)
     self%iterate%keeps_matrix = .false.
     outcome%last%constraint = largest_gap(self)/self%system%length
+    if (self%iterate%invalid > 0) then
+      outcome%status = newton_distorted
+      outcome%element = self%iterate%invalid
+      return
+    end if
     self%flow = next
   end subroutine take_step
 

@@ -80,7 +80,8 @@ contains
     case (newton_slow)
       words = "not converged after "//plural(outcome%last%iteration, "iteration")
     case (newton_distorted)
-      words = member_name(model, outcome%element)//" turns too far within itself: divide it"
+      words = member_name(model, outcome%element)//" turns too far within itself"
+      if (outcome%element <= size(model%member)) words = words//": divide it"
     case default
       words = "the iteration diverged"
     end select
