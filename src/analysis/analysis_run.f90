@@ -9,6 +9,7 @@ module analysis_run
   use linalg_solver, only: solver_t
   use nodal_state, only: state_t
   use system_data, only: system_t
+  use system_motion, only: mark_timed
   use system_build, only: build_system, find_system_pattern
   use system_assembly, only: iterate_t, new_iterate
   use start_assembly, only: assemble_start
@@ -129,13 +130,14 @@ contains
           call add_imperfections(i, course%modes, shaped, error)
           if (allocated(error)) return
         end if
+        if (allocated(course%flow)) deallocate (course%flow)
         call solver%free()
         call system%free()
         call set_up(shaped, system, solver, iterate, recorder, error)
         if (allocated(error)) return
         level = 0
       end if
-      if (i == first) call mark_timed(model, first, system)
+      if (i == first) call mark_earlier(model, first, system)
       call recorder%begin(i, model%analysis(i), error)
       if (allocated(error)) return
       if (size(model%imperfection) > 0) then
@@ -154,20 +156,19 @@ contains
 
   !> Patterns that motions in time before analysis number `first` have applied, since the last
   !> imperfection: of a run that goes on.
-  pure subroutine mark_timed(model, first, system)
+  pure subroutine mark_earlier(model, first, system)
     type(model_t), intent(in) :: model
     integer, intent(in) :: first
     type(system_t), intent(inout) :: system
-    integer :: i
+    integer :: from
 
-    do i = 1, first - 1
-      if (any(model%imperfection%analysis == i)) system%timed = .false.
-      associate (a => model%analysis(i))
-        if (a%kind == analysis_transient .and. a%pattern > 0) system%timed(a%pattern) = .true.
-      end associate
-    end do
-    if (any(model%imperfection%analysis == first)) system%timed = .false.
-  end subroutine mark_timed
+    from = 1
+    if (any(model%imperfection%analysis <= first)) then
+      from = maxval(model%imperfection%analysis, model%imperfection%analysis <= first)
+      system%timed = .false.
+    end if
+    call mark_timed(model, from, first - 1, system%timed)
+  end subroutine mark_earlier
 
   !> Run one analysis.
   subroutine run_one(model, system, solver, analysis, level, iterate, recorder, course, error)

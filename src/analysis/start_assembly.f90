@@ -8,7 +8,8 @@ module start_assembly
   use kinds, only: wp
   use errors, only: error_t, fail, exit_deck
   use text, only: to_text
-  use model_data, only: model_t, pattern_t, motion_t, time_analyses
+  use model_data, only: model_t, pattern_t, motion_t
+  use system_motion, only: mark_timed
   use nodal_state, only: state_t, new_state, node_coordinates
   use rotation, only: turned, rotation_vector
   use element_base, only: element_t
@@ -69,13 +70,7 @@ contains
 
     call new_state(system%nodes, system%coordinates - node_coordinates*system%nodes, &
                    system%angles, state)
-    if (size(model%analysis) > 0) then
-      associate (first => model%analysis(1))
-        if (any(time_analyses == first%kind) .and. first%pattern > 0) then
-          system%timed(first%pattern) = .true.
-        end if
-      end associate
-    end if
+    call mark_timed(model, 1, min(1, size(model%analysis)), system%timed)
     level = 0
     call check_angles(model, system, level, error)
     if (allocated(error)) return

@@ -6,14 +6,14 @@
 module system_dependence
   use kinds, only: wp
   use errors, only: error_t
-  use model_data, only: model_t, mode_flexible, mode_prescribed, time_analyses, joint_hinge, &
+  use model_data, only: model_t, mode_flexible, mode_prescribed, joint_hinge, &
                         joint_universal, joint_cylindrical, joint_prismatic, joint_truss
   use nodal_state, only: state_t, node_coordinates
   use element_base, only: element_t
   use linalg_solver, only: solver_t
   use system_data, only: system_t
   use system_constraints, only: scaled_jacobian
-  use system_motion, only: target_direction
+  use system_motion, only: target_direction, mark_timed
   use system_names, only: locate_strain
   implicit none
   private
@@ -110,7 +110,7 @@ contains
     if (size(dropped) == 0 .or. size(system%drive) == 0) return
     call new_rows(system, state, dropped, rows, error)
     timed = system%timed
-    call mark_timed(model, system%timed)
+    call mark_timed(model, 1, size(model%analysis), system%timed)
     level = 0
     at = 0
     do p = 1, size(model%pattern)
@@ -129,20 +129,6 @@ contains
     end if
     call rows%solver%free()
   end subroutine find_contradiction
-
-  !> Patterns that a motion in time brings.
-  pure subroutine mark_timed(model, timed)
-    type(model_t), intent(in) :: model
-    logical, intent(inout) :: timed(:)
-    integer :: i
-
-    do i = 1, size(model%analysis)
-      associate (analysis => model%analysis(i))
-        if (.not. any(time_analyses == analysis%kind) .or. analysis%pattern == 0) cycle
-        timed(analysis%pattern) = .true.
-      end associate
-    end do
-  end subroutine mark_timed
 
   !> Whether a motion prescribes a strain.
   pure logical function is_driven(system, strain)

@@ -2,13 +2,14 @@
 !> that changes.
 module system_motion
   use kinds, only: wp
-  use model_data, only: model_t, motion_t
+  use model_data, only: model_t, motion_t, time_analyses
   use model_functions, only: function_jet
   use system_data, only: system_t, drive_t, turn_t
   implicit none
   private
 
   public :: make_motions, set_targets, target_rates, target_direction, overturned
+  public :: mark_timed
 
   !> An angle driven to this, in radians, has no rotation of its own any more: lambda = sin(angle/2)
   !> turns back.
@@ -41,18 +42,31 @@ contains
         end associate
       end do
     end do
-    allocate (system%turn(0))
+    allocate (system%turn(count([(any(system%holder(4:6, i) > 0), i=1, system%nodes)])))
+    n = 0
     do i = 1, system%nodes
-      do n = 4, 6
-        associate (e => system%holder(n, i))
-          if (e == 0) cycle
-          if (any(system%holder(4:n - 1, i) == e)) cycle
-          system%turn = [system%turn, turn_t(system%first(e) + 1, system%element(e)%e%strains, &
-                                             euler(e))]
-        end associate
-      end do
+      associate (e => maxval(system%holder(4:6, i)))
+        if (e == 0) cycle
+        n = n + 1
+        system%turn(n) = turn_t(system%first(e) + 1, system%element(e)%e%strains, euler(e))
+      end associate
     end do
   end subroutine make_motions
+
+  !> The patterns that the motions in time among the analyses `from` to `to` bring.
+  pure subroutine mark_timed(model, from, to, timed)
+    type(model_t), intent(in) :: model
+    integer, intent(in) :: from, to
+    logical, intent(inout) :: timed(:)
+    integer :: i
+
+    do i = from, to
+      associate (analysis => model%analysis(i))
+        if (any(time_analyses == analysis%kind) .and. analysis%pattern > 0) &
+          timed(analysis%pattern) = .true.
+      end associate
+    end do
+  end subroutine mark_timed
 
   !> The strain that a motion drives: of an element, or the one that stands for a coordinate.
   pure integer function driven_strain(system, motion) result(strain)

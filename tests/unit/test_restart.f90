@@ -7,7 +7,7 @@ module test_restart
   use check, only: run, expect
   use output_reader, only: reader_t, dataset_t
   use program_runs, only: outcome_t, scratch, read_text, make_file, file_there, same_bytes
-  use restart_runs, only: expect_status, mechanism, pendulum, fresh, frame
+  use restart_runs, only: cases, expect_status, mechanism, pendulum, fresh, frame
   use result_reader, only: get_reals, get_integers, get_numbers
   implicit none
   private
@@ -302,6 +302,10 @@ contains
     call expect_status(deck//" --quiet -D second=1 -o "//part, 0, outcome)
     call expect_status(frame//" --quiet -o "//rest//" --restart "//part, 0, outcome)
     call expect_same(whole, rest, "behind the first")
+    call expect_status(cases//"driven.deck --quiet -o "//whole, 0, outcome)
+    call expect_status(cases//"driven.deck --quiet -D end=1.5 -o "//part, 0, outcome)
+    call expect_status(cases//"driven.deck --quiet -o "//rest//" --restart "//part, 0, outcome)
+    call expect_same(whole, rest, "behind a KINEMATIC")
   end subroutine test_analyses
 
   !> Nodes that histories do not keep are drawn all the same.
