@@ -3,7 +3,7 @@ module system_forces
   use kinds, only: wp
   use model_data, only: model_t, member_t, load_t, mode_released, mass_none, mass_consistent
   use system_data, only: system_t, dead_load_t
-  use system_inertia, only: truss_density
+  use system_inertia, only: truss_density, line_densities, mass_shear_centre
   implicit none
   private
 
@@ -89,14 +89,10 @@ contains
   pure function line_mass(model, member)
     type(model_t), intent(in) :: model
     type(member_t), intent(in) :: member
-    real(wp) :: line_mass
+    real(wp) :: line_mass, density(6)
 
-    line_mass = 0
-    if (member%has_inertia) then
-      line_mass = member%inertia(1)
-    else if (member%section > 0 .and. member%material > 0) then
-      line_mass = model%section(member%section)%constants%a*model%material(member%material)%rho
-    end if
+    density = line_densities(model, member)
+    line_mass = density(1)
   end function line_mass
 
   !> Dead weight: half at each end; with the consistent mass at the arms l0/6 d that stand for
@@ -106,16 +102,12 @@ contains
     type(member_t), intent(in) :: member
     integer, intent(in) :: pattern
     type(dead_load_t) :: load(2)
-    real(wp) :: length, s(3)
+    real(wp) :: length, s(3), centre(2)
     integer :: e
 
     length = norm2(member%chord)
-    s = 0
-    if (member%section > 0 .and. .not. member%has_stiffness) then
-      associate (c => model%section(member%section)%constants)
-        s = c%zs*member%triad(:, 2) - c%ys*member%triad(:, 3)
-      end associate
-    end if
+    centre = mass_shear_centre(model, member)
+    s = centre(2)*member%triad(:, 2) - centre(1)*member%triad(:, 3)
     do e = 1, 2
       load(e)%pattern = pattern
       load(e)%node = member%node(:, e)

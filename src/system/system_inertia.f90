@@ -15,7 +15,7 @@ module system_inertia
   private
 
   public :: masses_t, new_masses, assemble_mass, mass_product, rigid_motion, mass_centre
-  public :: truss_density, body_size, find_massive
+  public :: truss_density, line_densities, mass_shear_centre, body_size, find_massive
 
 contains
 
@@ -96,15 +96,17 @@ contains
     type(model_t), intent(in) :: model
     type(system_t), intent(in) :: system
     type(masses_t), intent(inout) :: masses
-    integer :: k, b, i, j
+    integer :: point_of(size(model%node)), k, b, i, j
 
+    point_of(system%mass_node) = [(k, k=1, size(system%mass_node))]
+    do i = 1, size(model%mass)
+      associate (point => masses%point(point_of(model%mass(i)%node)))
+        point%mass = point%mass + model%mass(i)%mass
+        point%tensor = point%tensor + model%mass(i)%inertia
+      end associate
+    end do
     do k = 1, size(system%mass_node)
       b = masses%beams + masses%trusses + k
-      do i = 1, size(model%mass)
-        if (model%mass(i)%node /= system%mass_node(k)) cycle
-        masses%point(k)%mass = masses%point(k)%mass + model%mass(i)%mass
-        masses%point(k)%tensor = masses%point(k)%tensor + model%mass(i)%inertia
-      end do
       masses%total = masses%total + masses%point(k)%mass
       masses%block(b) = size(system%element) + size(system%load) + k
       masses%node(:, 1, b) = system%mass_node(k)
@@ -151,23 +153,31 @@ contains
     end if
   end function line_densities
 
-  !> The shear centre matters where alpha does: to a beam that bends and twists by a section.
+  !> Inertia of a beam.
   pure function member_inertia(model, member) result(inertia)
     type(model_t), intent(in) :: model
     type(member_t), intent(in) :: member
     type(inertia_t) :: inertia
+
+    inertia = new_inertia(line_densities(model, member), norm2(member%chord), member%triad, &
+                          mass_shear_centre(model, member), member%mass == mass_consistent, &
+                          member%rotary)
+  end function member_inertia
+
+  !> The shear centre of a beam's section where its mass has to know it: where alpha moves the line
+  !> of centroids [L].
+  pure function mass_shear_centre(model, member) result(centre)
+    type(model_t), intent(in) :: model
+    type(member_t), intent(in) :: member
     real(wp) :: centre(2)
 
     centre = 0
-    if (member%section > 0 .and. .not. member%has_stiffness .and. .not. member%rigid &
-        .and. member%kind /= type_beam) then
-      centre = [model%section(member%section)%constants%ys, &
-                model%section(member%section)%constants%zs]
-    end if
-    inertia = new_inertia(line_densities(model, member), norm2(member%chord), member%triad, &
-                          centre, &
-                          member%mass == mass_consistent, member%rotary)
-  end function member_inertia
+    if (member%section == 0 .or. member%has_stiffness .or. member%rigid .or. &
+        member%kind == type_beam) return
+    associate (c => model%section(member%section)%constants)
+      centre = [c%ys, c%zs]
+    end associate
+  end function mass_shear_centre
 
   !> The mass matrix at a state, by entry of the system's pattern.
   pure subroutine assemble_mass(system, masses, state, values)

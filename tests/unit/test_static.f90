@@ -27,6 +27,7 @@ contains
     call run("static: released bending modes make a hinge", release)
     call run("static: dead weight, consistent mass exact", weight)
     call run("static: dead weight of a beam with a hinge at its end", propped_weight)
+    call run("static: weight of a rigid BEAM beside a BEAMW", neighbour_weight)
     call run("static: cantilever, P L**2/EI = 5, fine and coarse", cantilever)
     call run("static: global equilibrium of a space frame at large displacements", equilibrium)
     call run("static: single rotations held, forks", forks)
@@ -278,6 +279,18 @@ contains
 
     w = 5*q/4*5.0_wp**3/9 + 5*q/2*2.5_wp**2*(3*5 - 2.5_wp)/18
   end function lumped_deflection
+
+  !> A rigid BEAM has no part in alpha: its section's shear centre does not matter.
+  subroutine neighbour_weight()
+    type(memory_t) :: memory
+    type(model_t) :: model
+
+    call run_sound("neighbour_weight", memory, model)
+    call expect(memory%steps == 1, "one step")
+    if (memory%steps /= 1) return
+    call expect_close(memory%results(1)%warping, spread(0.0_wp, 1, 3), 1.0e-12_wp, "no warping")
+    call expect(all(abs(memory%results(1)%load(7, :)) <= 0), "no bimoment")
+  end subroutine neighbour_weight
 
   !> The benchmark's cantilever: its exact tip with shear and stretch, to 5e-6 of the length with 10
   !> elements and 1e-8 with 100, in 5 steps of at most 5 iterations.
