@@ -52,6 +52,7 @@ module start_velocity
     type(iterate_t) :: rest                !< the state, without stress
     type(condition_t), allocatable :: given(:)
     integer, allocatable :: row(:), column(:)
+    integer :: entries = 0
     real(wp), allocatable :: values(:)
     real(wp), allocatable :: near(:)       !< entries of R, zero behind those of the coordinates
     real(wp), allocatable :: demand(:)     !< right-hand side of the rows of C and A, zero before
@@ -149,10 +150,15 @@ contains
         if (at > 0) self%demand(at) = rate(k)
       end associate
     end do
+    n = 0
     do i = 1, size(start)
-      n = self%system%equations() + i
       self%given(i)%start = start(i)
       call find_condition(model, model%start(start(i)), self, self%given(i))
+      n = n + 1 + size(self%given(i)%coordinate)
+    end do
+    call make_room(self, n)
+    do i = 1, size(start)
+      n = self%system%equations() + i
       self%demand(n) = self%given(i)%value
       call add_entry(self, n, n, -compliance)
       do k = 1, size(self%given(i)%coordinate)
@@ -161,17 +167,34 @@ contains
         end associate
       end do
     end do
+    self%row = self%row(:self%entries)
+    self%column = self%column(:self%entries)
+    self%values = self%values(:self%entries)
+    self%near = self%near(:self%entries)
   end subroutine add_conditions
+
+  !> Room for `n` entries more.
+  subroutine make_room(self, n)
+    type(problem_t), intent(inout) :: self
+    integer, intent(in) :: n
+    integer :: k
+
+    self%entries = size(self%row)
+    self%row = [self%row, (0, k=1, n)]
+    self%column = [self%column, (0, k=1, n)]
+    self%values = [self%values, (0.0_wp, k=1, n)]
+    self%near = [self%near, (0.0_wp, k=1, n)]
+  end subroutine make_room
 
   subroutine add_entry(self, row, column, entry)
     type(problem_t), intent(inout) :: self
     integer, intent(in) :: row, column
     real(wp), intent(in) :: entry
 
-    self%row = [self%row, row]
-    self%column = [self%column, column]
-    self%values = [self%values, entry]
-    self%near = [self%near, 0.0_wp]
+    self%entries = self%entries + 1
+    self%row(self%entries) = row
+    self%column(self%entries) = column
+    self%values(self%entries) = entry
   end subroutine add_entry
 
   !> A card as a condition, scaled so that its largest factor is one for a motion as large as the

@@ -181,7 +181,7 @@ contains
     type(modes_t), intent(in) :: modes_found
     type(error_t), allocatable, intent(out) :: error
 
-    self%frequency = modes_found%frequency
+    if (allocated(modes_found%frequency)) self%frequency = modes_found%frequency
     if (modes_found%modes < 0) allocate (error)
   end subroutine motion_modes
 

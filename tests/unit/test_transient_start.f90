@@ -19,7 +19,34 @@ contains
     call run("start: order 2 of the free rigid body", free_body_order)
     call run("start: steady precession of the top (MBD-06)", top)
     call run("start: spatial slider-crank (MBD-13)", slider_crank)
+    call run("start: drift through many outputs", drift)
+    call run("start: a motion behind an imperfection starts anew", reshaped)
   end subroutine run_transient_start_tests
+
+  !> Uniform motion; a step that an output cuts short must not make the next ones grow without end.
+  subroutine drift()
+    type(motion_t) :: motion
+    type(model_t) :: model
+
+    call follow("drift", motion, model, [character(len=1) ::])
+    call expect(motion%steps == 1201, "all outputs")
+    if (motion%steps /= 1201) return
+    call expect_close(motion%results(1201)%displacement(1, 1), 1.2_wp, 1.0e-12_wp, "way")
+    call expect(all(motion%size(2:) <= 1.0_wp), "steps reach from output to output at most")
+  end subroutine drift
+
+  !> The second motion has the velocities of STARTDX, not those that the first one ended with.
+  subroutine reshaped()
+    type(motion_t) :: motion
+    type(model_t) :: model
+
+    call follow("reshaped", motion, model, [character(len=1) ::])
+    call expect(motion%steps == 11 + 11, "both motions")
+    if (motion%steps /= 22) return
+    call expect_close(motion%results(12)%velocity, motion%results(1)%velocity, 1.0e-6_wp, &
+                      "the same start")
+    call expect_close(motion%results(12)%velocity(2, 3), 1.0_wp, 1.0e-9_wp, "as given")
+  end subroutine reshaped
 
   !> Angular velocity in the body's axes.
   function body_rates(motion, i) result(rate)
