@@ -14,7 +14,7 @@ module analysis_transient
   use newton_method, only: newton_outcome_t, newton_converged
   use generalized_alpha, only: new_scheme, flow_t
   use dynamic_equilibrium, only: dynamics_t, new_dynamics, take_step, release_dynamics
-  use dynamic_start, only: start_motion, restart_motion, part_of_step
+  use dynamic_start, only: start_motion, restart_motion, settle_motion, part_of_step
   use motion_instant, only: instant_t, remember, go_back
   use energy_account, only: account_t, open_account, reopen_account, enter_step, &
                             motion_results
@@ -60,9 +60,10 @@ contains
     call new_dynamics(system, masses, iterate, new_scheme(analysis%spectral_radius), &
                       model%rayleigh(1), motion, error)
     if (analysis%iterations > 0) motion%iterations = analysis%iterations
-    if (system%multipliers > 0 .and. analysis%spectral_radius >= 1) call recorder%remark( &
-      "warning: RHOINF 1 with held strains: their forces may grow slowly, as nothing damps "// &
-      "errors; RHOINF 0.9 does")
+    motion%stabilised = analysis%stabilised
+    if (system%multipliers > 0 .and. analysis%spectral_radius >= 1 .and. .not. motion%stabilised) &
+      call recorder%remark("warning: RHOINF 1 with held strains: their forces may grow slowly, "// &
+                           "as nothing damps errors; RHOINF 0.9 does, or STABILISED ON")
     if (allocated(error)) then
     else if (present(point)) then
       grid = new_time_grid(analysis, point%start)
@@ -77,6 +78,7 @@ contains
       if (.not. allocated(error)) call open_account(motion, account)
       record%time = time
       if (.not. allocated(error)) call keep(model, motion, account, recorder, record, error)
+      if (.not. allocated(error)) call settle_motion(h, level, motion, error)
     end if
     if (.not. allocated(error)) then
       call march(model, analysis, grid, h, time, level, motion, account, recorder, record, error)
@@ -238,6 +240,9 @@ contains
         call restart_motion(part_of_step*record%size, level, motion, error)
         if (allocated(error)) return
         call reopen_account(motion, account)
+        call settle_motion(merge(analysis%time_step, h, analysis%time_step > 0), level, motion, &
+                           error)
+        if (allocated(error)) return
       end if
       whole = .true.
       if (single .or. time >= goal - slack) return

@@ -3,6 +3,10 @@
 !>
 !> The matrix is unsymmetric, of inertia and turns. It is factorized at the start of a step, and
 !> again only where the iteration converges slowly.
+!>
+!> Stabilised (Gear, Gupta, Leimkuhler 1985; Arnold, Cardona, Bruels 2015) held strains have their
+!> rates too: these decide the multipliers, and the places are put right by an increment that the
+!> rates know nothing of, S^-1 C' eta with the matrix of the step.
 module dynamic_equilibrium
   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
   use kinds, only: wp
@@ -15,6 +19,7 @@ module dynamic_equilibrium
   use system_constraints, only: coordinate_scale
   use system_dynamics, only: shares_t, add_inertia, inertia_forces
   use system_inertia, only: masses_t
+  use system_motion, only: target_rates
   use generalized_alpha, only: scheme_t, flow_t, predict, correct, inverse_tangent
   use newton_method, only: newton_outcome_t, newton_converged, newton_slow, newton_diverged, &
                            newton_distorted
@@ -22,6 +27,7 @@ module dynamic_equilibrium
   private
 
   public :: dynamics_t, new_dynamics, take_step, release_dynamics
+  public :: assemble_motion, set_shares, correct_velocity, held_entries, by_coordinate
 
   !> Fixed strains are on their targets to this part of the model's length.
   real(wp), parameter :: constraint_tolerance = 1.0e-12_wp
@@ -45,6 +51,8 @@ module dynamic_equilibrium
     real(wp) :: mass_damping = 0.0_wp      !< Rayleigh's alpha [1/T]
     real(wp) :: tolerance = 1.0e-10_wp     !< of what is left of the increment after a step
     integer :: iterations = 20
+    logical :: stabilised = .false.        !< velocities satisfy the constraints too
+    real(wp), allocatable :: demand(:)     !< by strain: rates of the targets at the step's end
   end type dynamics_t
 
 contains
@@ -75,7 +83,7 @@ contains
     end associate
     allocate (self%iterate%rate(size(system%multiplier)), &
               self%iterate%viscous(size(system%multiplier)))
-    allocate (self%shares%turn(3, 3, system%nodes))
+    allocate (self%shares%turn(3, 3, system%nodes), self%demand(size(system%multiplier)))
     self%iterate%velocity = 0
     self%iterate%inertial = 0
     self%iterate%rate = 0
@@ -104,6 +112,7 @@ contains
     type(error_t), allocatable, intent(out) :: error
     type(flow_t) :: next
     real(wp) :: change(size(increment)), largest, before, left
+    real(wp) :: unused(size(self%demand))
     logical :: fresh
 
     next = self%flow
@@ -112,6 +121,7 @@ contains
     predicted = increment
     call self%iterate%state%move(increment)
     call set_shares(self, h)
+    if (self%stabilised) call target_rates(self%system, level, self%demand, unused)
     fresh = .true.
     before = huge(before)
     do
@@ -154,7 +164,48 @@ contains
       return
     end if
     self%flow = next
+    if (self%stabilised) call correct_velocity(self, error)
   end subroutine take_step
+
+  !> Put the rates of held strains on those of their targets, `demand`, by the least motion in the
+  !> sense of the matrix that was factorized last; the system is assembled with the velocity.
+  subroutine correct_velocity(self, error)
+    type(dynamics_t), intent(inout) :: self
+    type(error_t), allocatable, intent(out) :: error
+    real(wp) :: solution(self%system%equations())
+
+    solution = held_entries(self%system, self%demand - self%iterate%rate)
+    if (.not. any(abs(solution) > 0)) return
+    call self%solver%solve(solution, error)
+    if (allocated(error)) return
+    self%flow%velocity = self%flow%velocity + by_coordinate(self%system, solution)
+  end subroutine correct_velocity
+
+  !> The coordinates' part of a solution, zero where they are held.
+  pure function by_coordinate(system, solution) result(x)
+    type(system_t), intent(in) :: system
+    real(wp), intent(in) :: solution(:)
+    real(wp) :: x(system%coordinates)
+    integer :: k
+
+    do k = 1, size(x)
+      x(k) = 0
+      if (system%unknown(k) > 0) x(k) = solution(system%unknown(k))
+    end do
+  end function by_coordinate
+
+  !> A right-hand side of what held strains lack, zero elsewhere.
+  pure function held_entries(system, lack) result(b)
+    type(system_t), intent(in) :: system
+    real(wp), intent(in) :: lack(:)        !< by strain
+    real(wp) :: b(system%equations())
+    integer :: k
+
+    b = 0
+    do k = 1, size(lack)
+      if (system%multiplier(k) > 0) b(system%multiplier(k)) = lack(k)
+    end do
+  end function held_entries
 
   !> Rates and increments of coordinates that are held are zero.
   pure subroutine clear_held(system, flow, increment)
@@ -170,6 +221,7 @@ contains
     end where
   end subroutine clear_held
 
+  !> For a step of length h [T].
   pure subroutine set_shares(self, h)
     type(dynamics_t), intent(inout) :: self
     real(wp), intent(in) :: h
@@ -180,7 +232,7 @@ contains
     self%iterate%velocity_share = self%shares%velocity
   end subroutine set_shares
 
-  !> Residual and tangent at the end of the step.
+  !> Residual, and tangent unless the iterate keeps its matrix, at the end of a step.
   pure subroutine assemble_motion(self, level, increment, next)
     type(dynamics_t), intent(inout) :: self
     real(wp), intent(in) :: level(:), increment(:)
@@ -205,7 +257,8 @@ contains
                      self%iterate%values)
   end subroutine assemble_motion
 
-  !> One Newton increment.
+  !> One Newton increment. Stabilised, the increment that the rates know closes the gap of the
+  !> velocities; what it leaves of that of the places is closed aside.
   subroutine improve(self, h, increment, next, change, error)
     type(dynamics_t), intent(inout) :: self
     real(wp), intent(in) :: h
@@ -213,15 +266,41 @@ contains
     type(flow_t), intent(inout) :: next
     real(wp), intent(out) :: change(:)
     type(error_t), allocatable, intent(out) :: error
-    real(wp) :: solution(self%system%equations())
+    real(wp), dimension(self%system%equations()) :: solution, rest
+    real(wp) :: aside(size(change))
 
     change = 0
+    aside = 0
     solution = right_hand_side(self%system, self%iterate)
+    if (self%stabilised) then
+      rest = held_entries(self%system, self%iterate%target - self%iterate%strain &
+                          - (self%demand - self%iterate%rate)/self%shares%velocity)
+      solution = solution - rest
+      call self%solver%solve(rest, error)
+      if (allocated(error)) return
+      rest(self%system%unknowns + 1:) = 0
+      aside = by_coordinate(self%system, rest)
+      call turn_spins(self, aside)
+    end if
     call self%solver%solve(solution, error)
     if (allocated(error)) return
+    if (self%stabilised) solution = solution + rest
     call advance(self%system, solution, 1.0_wp, self%iterate, change)
-    call correct(self%scheme, self%system%nodes, h, change, increment, next)
+    call correct(self%scheme, self%system%nodes, h, change, aside, increment, next)
   end subroutine improve
+
+  !> Spins as changes of the step's rotation vectors, in place.
+  pure subroutine turn_spins(self, motion)
+    type(dynamics_t), intent(in) :: self
+    real(wp), intent(inout) :: motion(:)   !< by coordinate
+    integer :: i
+
+    do i = 1, self%system%nodes
+      associate (spin => motion(node_coordinates*i - 3:node_coordinates*i - 1))
+        if (any(abs(spin) > 0)) spin = matmul(self%shares%turn(:, :, i), spin)
+      end associate
+    end do
+  end subroutine turn_spins
 
   !> Largest distance of a held strain from its target.
   pure real(wp) function largest_gap(self)

@@ -4,20 +4,22 @@ module dynamic_start
   use kinds, only: wp
   use errors, only: error_t
   use model_data, only: model_t
+  use nodal_state, only: state_t, node_coordinates
+  use rotation, only: cross
   use system_data, only: system_t
-  use system_assembly, only: iterate_t, assemble, right_hand_side
+  use system_assembly, only: iterate_t, right_hand_side
   use system_motion, only: target_rates
-  use system_rates, only: convective_rates
-  use system_dynamics, only: add_inertia
+  use system_rates, only: strain_rates, convective_rates
   use system_inertia, only: find_massive
-  use rotation, only: identity3
-  use dynamic_equilibrium, only: dynamics_t
+  use generalized_alpha, only: flow_t
+  use dynamic_equilibrium, only: dynamics_t, assemble_motion, set_shares, correct_velocity, &
+                                 held_entries, by_coordinate
   use start_assembly, only: assemble_model
   use start_velocity, only: find_velocities
   implicit none
   private
 
-  public :: start_motion, restart_motion, constraint_accelerations
+  public :: start_motion, restart_motion, settle_motion, constraint_accelerations
 
   !> The accelerations come from the matrix of a step this part of the first one's length: the
   !> stiffness then weighs 1e-4 of what it does there.
@@ -44,8 +46,9 @@ contains
     call restart_motion(part_of_step*h, level, motion, error)
   end subroutine start_motion
 
-  !> M a + C'mu = f - h - D'sigma, C a = rates of the targets - v'Hv; with the matrix of a very
-  !> short step, whose stiffness gives coordinates without mass theirs. Left in flow and iterate.
+  !> Velocities that satisfy the constraints, M a + C'mu = f - h - D'sigma, C a = rates of the targets
+  !> - v'Hv; with the matrix of a very short step, whose stiffness gives coordinates without mass
+  !> theirs. Left in flow and iterate.
   subroutine restart_motion(h, level, motion, error)
     real(wp), intent(in) :: h          !< length of the very short step [T]
     real(wp), intent(in) :: level(:)
@@ -53,53 +56,145 @@ contains
     type(error_t), allocatable, intent(out) :: error
     real(wp) :: solution(motion%system%equations()), share, demand(size(motion%iterate%strain))
     logical :: massive(motion%system%coordinates)
-    integer :: i, k
+    integer :: k
 
     motion%flow%acceleration = 0
-    motion%shares%velocity = motion%scheme%velocity_share(h)
-    motion%shares%acceleration = motion%scheme%acceleration_share(h)
-    motion%iterate%velocity_share = motion%shares%velocity
-    share = motion%shares%acceleration
-    do i = 1, motion%system%nodes
-      motion%shares%turn(:, :, i) = identity3
-    end do
-    motion%iterate%velocity = motion%flow%velocity
-    call assemble_at_rest(motion, level)
+    call set_shares(motion, h)
+    share = motion%scheme%acceleration_share(h)
+    motion%shares%acceleration = share
+    call assemble_here(motion, level)
+    call motion%solver%factorize(motion%iterate%values, error)
+    if (allocated(error)) return
+    if (motion%system%multipliers > 0) then
+      call target_rates(motion%system, level, motion%demand, demand)
+      call correct_velocity(motion, error)
+      if (allocated(error)) return
+      call assemble_here(motion, level, keeps_matrix=.true.)
+    end if
     call constraint_accelerations(motion%system, motion%iterate, level, demand)
     solution = right_hand_side(motion%system, motion%iterate)
-    do k = 1, size(demand)
-      associate (at => motion%system%multiplier(k))
-        if (at > 0) solution(at) = demand(k)/share
-      end associate
-    end do
-    call motion%solver%factorize(motion%iterate%values, error)
-    if (.not. allocated(error)) call motion%solver%solve(solution, error)
+    solution(motion%system%unknowns + 1:) = 0
+    solution = solution + held_entries(motion%system, demand/share)
+    call motion%solver%solve(solution, error)
     if (allocated(error)) return
     call find_massive(motion%masses, motion%iterate%state, massive)
-    do k = 1, motion%system%coordinates
-      associate (at => motion%system%unknown(k))
-        if (at > 0 .and. massive(k)) motion%flow%acceleration(k) = share*solution(at)
-      end associate
-    end do
+    motion%flow%acceleration = merge(share*by_coordinate(motion%system, solution), 0.0_wp, massive)
     do k = 1, size(demand)
       associate (at => motion%system%multiplier(k))
         if (at > 0) motion%iterate%stress(k) = solution(at)
       end associate
     end do
     motion%flow%pseudo = motion%flow%acceleration
-    call assemble_at_rest(motion, level)
+    motion%flow%step = 0
+    call assemble_here(motion, level)
   end subroutine restart_motion
 
-  subroutine assemble_at_rest(motion, level)
+  !> Give the scheme's own acceleration, and unless stabilised the velocities across constraints, the
+  !> values that steps of length h keep: a = v' + lead h v'', and the part of
+  !> h^2 (place_error v'' + w' x w/12) that changes held strains. Else these start an error of the
+  !> multipliers of first order, which fades like RHOINF^n.
+  !>
+  !> v'' is the difference of accelerations at the present and after part of a step, by the matrix of
+  !> a whole one: vibrations that the steps cannot follow then add nothing to it.
+  subroutine settle_motion(h, level, motion, error)
+    real(wp), intent(in) :: h, level(:)
+    type(dynamics_t), intent(inout) :: motion
+    type(error_t), allocatable, intent(out) :: error
+    real(wp) :: jerk(motion%system%coordinates), missed(size(jerk)), rate(size(motion%demand))
+    real(wp) :: solution(motion%system%equations())
+    logical :: massive(size(jerk))
+
+    if (motion%system%multipliers == 0) return
+    call set_shares(motion, h)
+    call assemble_here(motion, level)
+    call motion%solver%factorize(motion%iterate%values, error)
+    if (allocated(error)) return
+    call unbalance_rate(part_of_step*h, level, motion, solution)
+    call motion%solver%solve(solution, error)
+    if (allocated(error)) return
+    call find_massive(motion%masses, motion%iterate%state, massive)
+    jerk = motion%scheme%acceleration_share(h)*by_coordinate(motion%system, solution)
+    jerk = merge(jerk, 0.0_wp, massive)
+    motion%flow%pseudo = motion%flow%acceleration + motion%scheme%lead()*h*jerk
+    motion%flow%step = h
+    if (motion%stabilised) return
+    missed = motion%scheme%place_error()*jerk + twist(motion)/12
+    call strain_rates(motion%system, motion%iterate, missed, rate)
+    solution = held_entries(motion%system, h**2*rate)
+    call motion%solver%solve(solution, error)
+    if (allocated(error)) return
+    motion%flow%velocity = motion%flow%velocity + by_coordinate(motion%system, solution)
+  end subroutine settle_motion
+
+  !> How fast the accelerations and multipliers of now fail to balance: rate of
+  !> f - h - D'sigma - C'mu - M a, and of what held strains' second rates lack, as a right-hand side.
+  !> The motion is assembled at the present and left so, but for the matrix.
+  subroutine unbalance_rate(dt, level, motion, b)
+    real(wp), intent(in) :: dt, level(:)
+    type(dynamics_t), intent(inout) :: motion
+    real(wp), intent(out) :: b(:)
+    real(wp) :: later(size(level))
+    type(state_t) :: state
+    type(flow_t) :: flow
+
+    b = unbalance(motion, level)
+    state = motion%iterate%state
+    flow = motion%flow
+    later = level
+    where (motion%system%timed) later = level + dt
+    call motion%iterate%state%move(dt*flow%velocity + 0.5_wp*dt**2*flow%acceleration)
+    motion%flow%velocity = flow%velocity + dt*flow%acceleration
+    call assemble_here(motion, later, keeps_matrix=.true.)
+    b = (unbalance(motion, later) - b)/dt
+    motion%iterate%state = state
+    motion%flow = flow
+    call assemble_here(motion, level, keeps_matrix=.true.)
+  end subroutine unbalance_rate
+
+  !> What accelerations and multipliers leave of the equations of motion.
+  pure function unbalance(motion, level) result(b)
+    type(dynamics_t), intent(in) :: motion
+    real(wp), intent(in) :: level(:)
+    real(wp) :: b(motion%system%equations())
+    real(wp), dimension(size(motion%demand)) :: demand, rate
+    integer :: k
+
+    call constraint_accelerations(motion%system, motion%iterate, level, demand)
+    call strain_rates(motion%system, motion%iterate, motion%flow%acceleration, rate)
+    b = right_hand_side(motion%system, motion%iterate)
+    b(motion%system%unknowns + 1:) = 0
+    b = b + held_entries(motion%system, (demand - rate)/motion%shares%acceleration)
+    do k = 1, motion%system%coordinates
+      associate (at => motion%system%unknown(k))
+        if (at > 0) b(at) = b(at) - motion%iterate%constraint(k)
+      end associate
+    end do
+  end function unbalance
+
+  !> w' x w of each rotation, zero elsewhere.
+  pure function twist(motion)
+    type(dynamics_t), intent(in) :: motion
+    real(wp) :: twist(motion%system%coordinates)
+    integer :: k
+
+    twist = 0
+    do k = 4, node_coordinates*motion%system%nodes, node_coordinates
+      twist(k:k + 2) = cross(motion%flow%acceleration(k:k + 2), motion%flow%velocity(k:k + 2))
+    end do
+  end function twist
+
+  !> Residual and tangent, or the residual alone, at the present state.
+  pure subroutine assemble_here(motion, level, keeps_matrix)
     type(dynamics_t), intent(inout) :: motion
     real(wp), intent(in) :: level(:)
+    logical, intent(in), optional :: keeps_matrix
+    real(wp) :: none(motion%system%coordinates)
 
-    call assemble(motion%system, level, motion%iterate)
-    call add_inertia(motion%system, motion%masses, motion%shares, motion%iterate%state, &
-                     motion%flow%velocity, motion%flow%acceleration &
-                     + motion%mass_damping*motion%flow%velocity, motion%iterate%inertial, &
-                     motion%iterate%values)
-  end subroutine assemble_at_rest
+    none = 0
+    if (present(keeps_matrix)) motion%iterate%keeps_matrix = keeps_matrix
+    call assemble_motion(motion, level, none, motion%flow)
+    motion%iterate%keeps_matrix = .false.
+  end subroutine assemble_here
 
   !> What D a has to be for the held strains: the second rate of their targets less v'Hv, by strain.
   pure subroutine constraint_accelerations(system, iterate, level, demand)

@@ -12,7 +12,7 @@ module motion_restart
 
   public :: make_point, take_up, restore_shape
 
-  integer, parameter :: numbers = 9   !< in front of the lists in `rest`
+  integer, parameter :: numbers = 10  !< in front of the lists in `rest`
 
 contains
 
@@ -29,7 +29,7 @@ contains
     point%time = time
     point%state = motion%iterate%state
     associate (flow => motion%flow, a => account)
-      point%rest = [h, a%opening, a%loads, a%motion, a%dissipated, a%power, &
+      point%rest = [h, a%opening, a%loads, a%motion, a%dissipated, a%power, flow%step, &
                     real([record%iterations, record%cutbacks, size(level)], wp), level, &
                     motion%iterate%stress, flow%velocity, flow%acceleration, flow%pseudo, &
                     motion%solver%scales(), a%external, a%stress, a%target, shape_of(model)]
@@ -63,8 +63,9 @@ contains
     end associate
     time = point%time
     motion%iterate%state = point%state
-    record%iterations = nint(point%rest(7))
-    record%cutbacks = nint(point%rest(8))
+    motion%flow%step = point%rest(7)
+    record%iterations = nint(point%rest(8))
+    record%cutbacks = nint(point%rest(9))
     at = numbers
     call take(level(:patterns))
     call take(motion%iterate%stress)

@@ -20,7 +20,7 @@ module restart_point
     procedure :: extend
   end type point_t
 
-  integer, parameter :: layout = 1       !< raised when `pack` or what is in `rest` changes
+  integer, parameter :: layout = 2       !< raised when `pack` or what is in `rest` changes
   integer, parameter :: head = 9         !< numbers in front of the state
   integer, parameter :: per_node = 8     !< displacement, Euler parameters, warping
 

@@ -14,14 +14,14 @@ module deck_time_cards
 
   !> Options in the order of the keyword table; KINEMATIC and INVERSE have the first four.
   integer, parameter :: end_option = 1, step_option = 2, every_option = 3, name_option = 4, &
-    tolerance_option = 5, radius_option = 6, iterations_option = 7
+    tolerance_option = 5, radius_option = 6, stabilised_option = 7, iterations_option = 8
 
   integer, parameter :: unknown_steps = 200           !< of steps that the analysis chooses
   real(wp), parameter :: most_time_steps = 1.0e9_wp
 
 contains
 
-  !> TRANSIENT TEND t (STEP h | TOL t) [EVERY dt] [RHOINF r] ...
+  !> TRANSIENT TEND t (STEP h | TOL t) [EVERY dt] [RHOINF r] [STABILISED ON] ...
   subroutine read_transient(card, draft)
     type(card_t), intent(in) :: card
     type(draft_t), intent(inout) :: draft
@@ -40,6 +40,9 @@ contains
                                       "RHOINF lies between 0 and 1", "1: no numerical damping; "// &
                                       "0: fast vibrations vanish in one step")
         end if
+      end if
+      if (option(stabilised_option) > 0) then
+        analysis%stabilised = card%whole(option(stabilised_option) + 1) == 2
       end if
       if (option(iterations_option) > 0) then
         analysis%iterations = card%whole(option(iterations_option) + 1)

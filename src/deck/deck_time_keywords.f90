@@ -18,12 +18,14 @@ contains
 
     table = [ &
       keyword_t("TRANSIENT", "analysis", "", "TEND t:T! | STEP h:T | EVERY dt:T | "// &
-        "NAME name:word | TOL tolerance:1 | RHOINF r:1=0.9 | MAXITER n:count=30", &
+        "NAME name:word | TOL tolerance:1 | RHOINF r:1=0.9 | STABILISED state:OFF/ON=ON | "// &
+        "MAXITER n:count=30", &
         "follows the motion to the time TEND, which counts from 0 through all analyses: by "// &
         "equal steps STEP, or by steps whose error is below TOL. Loads not yet applied act in "// &
-        "full, or as their FUNCTION of time says. RHOINF from 1 (no numerical damping; with "// &
-        "held strains errors may then grow slowly) to 0 "// &
-        "(most); EVERY: time from one output to the next, default each step", &
+        "full, or as their FUNCTION of time says. RHOINF from 1 (no numerical damping) to 0 "// &
+        "(most); EVERY: time from one output to the next, default each step. STABILISED OFF "// &
+        "holds the places of constraints alone, not their velocities: the classical form, whose "// &
+        "multipliers are less accurate and with RHOINF 1 may grow", &
         "XF 2 0 0 -6 FUNCTION wave|TRANSIENT TEND 2 STEP 0.01 EVERY 0.05|TRANSIENT TEND 3 "// &
         "TOL 1e-4", "mode 1", read_transient), &
       keyword_t("KINEMATIC", "analysis", "", times, &

@@ -270,6 +270,7 @@ module model_data
     real(wp) :: end_time = 0.0_wp             !< TEND, absolute [T]
     real(wp) :: time_step = 0.0_wp            !< STEP [T]; 0: adaptive, with `tolerance` TOL
     real(wp) :: spectral_radius = 0.9_wp      !< RHOINF, 0 to 1
+    logical :: stabilised = .true.            !< TRANSIENT: velocities satisfy constraints too
     real(wp) :: every = 0.0_wp                !< EVERY: interval of the output [T]; 0: each step
     integer, allocatable :: node(:)           !< COMPLIANCE, also of STATIC: nodes
     type(place_t) :: place

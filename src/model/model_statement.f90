@@ -129,7 +129,8 @@ contains
         call statement%add([real([a%steps, a%iterations, a%control, c%node, c%marker, &
           c%component, a%most_steps, a%modes], wp), c%value, a%factor, a%tolerance, &
           a%first_increment, flag(a%stops), a%stop%value, flag(a%branch), a%end_time, &
-          a%time_step, a%spectral_radius, a%every, flag(a%damped), flag(a%matrices), &
+          a%time_step, a%spectral_radius, a%every, flag(a%stabilised), &
+          flag(a%damped), flag(a%matrices), &
           real([a%stability, a%stop%node, a%stop%marker, a%stop%component], wp)])
         if (allocated(a%node)) call statement%add(real([size(a%node), a%node], wp))
       end associate

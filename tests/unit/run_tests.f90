@@ -37,6 +37,7 @@ program run_tests
   use test_transient_flexible, only: run_transient_flexible_tests
   use test_transient_power, only: run_transient_power_tests
   use test_transient_start, only: run_transient_start_tests
+  use test_transient_multipliers, only: run_transient_multipliers_tests
   use test_complex_modes, only: run_complex_modes_tests
   use test_eigen_matrices, only: run_eigen_matrices_tests
   use test_output_hdf5, only: run_output_hdf5_tests
@@ -99,6 +100,7 @@ program run_tests
   call run_transient_flexible_tests()
   call run_transient_power_tests()
   call run_transient_start_tests()
+  call run_transient_multipliers_tests()
   call run_complex_modes_tests()
   call run_eigen_matrices_tests()
   call run_output_hdf5_tests()

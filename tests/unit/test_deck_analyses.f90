@@ -41,10 +41,11 @@ contains
 
     call read_sound(held//force//"TRANSIENT TEND 2 STEP 0.01|TRANSIENT MAXITER 7 NAME slow "// &
                     "RHOINF 0 EVERY 0.5 TOL 1e-3 TEND 4|"// &
-                    "TRANSIENT TEND 5 TOL 1e-5 RHOINF 1", model)
+                    "TRANSIENT TEND 5 TOL 1e-5 STABILISED OFF RHOINF 1", model)
     call expect(size(model%analysis) == 3, "three")
     if (size(model%analysis) /= 3) return
     call expect(all(model%analysis%kind == analysis_transient), "TRANSIENT")
+    call expect(all(model%analysis%stabilised .eqv. [.true., .true., .false.]), "STABILISED")
     call expect_close(model%analysis%end_time, [2.0_wp, 4.0_wp, 5.0_wp], 0.0_wp, "TEND")
     call expect_close(model%analysis%time_step, [0.01_wp, 0.0_wp, 0.0_wp], 0.0_wp, "STEP")
     call expect_close(model%analysis%tolerance, [0.0_wp, 1.0e-3_wp, 1.0e-5_wp], 0.0_wp, "TOL")

@@ -1,0 +1,166 @@
+!> TRANSIENT: forces of constraints and velocities across them, of both forms of the constraints.
+module test_transient_multipliers
+  use kinds, only: wp
+  use check, only: run, expect, expect_close
+  use model_data, only: model_t
+  use motion_recorder, only: motion_t, follow, setting, observed_order
+  implicit none
+  private
+
+  public :: run_transient_multipliers_tests
+
+  real(wp), parameter :: pi = acos(-1.0_wp), g = 9.81_wp
+  character(len=*), parameter :: forms(2) = ["ON ", "OFF"]
+
+contains
+
+  subroutine run_transient_multipliers_tests()
+    call run("multipliers: order 2 from a start at speed, a top", top_order)
+    call run("multipliers: order 2 behind a jump of the load", jump_order)
+    call run("multipliers: order 2 of a driving torque, at speed from the start on", drive_order)
+    call run("multipliers: velocities satisfy the constraints", exact_velocities)
+    call run("multipliers: no growth without numerical damping", no_growth)
+  end subroutine run_transient_multipliers_tests
+
+  !> In steady precession the centre of mass goes round with w, which the support's force makes it
+  !> do: m w**2 sin(theta), and it carries the weight.
+  subroutine top_order()
+    real(wp), parameter :: radius(3) = [1.0_wp, 0.8_wp, 0.0_wp], w = 3.105309340559323_wp
+    real(wp), parameter :: mass = 15.0_wp, theta = pi/3
+    type(motion_t) :: motion
+    type(model_t) :: model
+    real(wp) :: error(2), force(3)
+    integer :: i, k, r, form
+
+    do form = 1, 2
+      do r = form, 3  ! of places alone, errors of RHOINF 1 do not fade
+        error = 0
+        do k = 1, 2
+          call follow("top", motion, model, [setting("theta", 60.0_wp), setting("w", w), &
+                      setting("h", 4.0e-4_wp/2**k), setting("end", 0.02_wp), &
+                      setting("rho", radius(r)), setting("form", forms(form))])
+          if (motion%steps < 2) return
+          do i = 2, motion%steps
+            force = mass*[-w**2*sin(theta)*cos(w*motion%time(i)), &
+                          -w**2*sin(theta)*sin(w*motion%time(i)), g]
+            error(k) = max(error(k), maxval(abs(motion%results(i)%reaction(:3, 1) - force)))
+          end do
+        end do
+        call expect_close(observed_order(error(1:1), error(2:2)), 2.0_wp, 0.1_wp, &
+                          "order, STABILISED "//trim(forms(form)))
+        call expect(error(2) < mass*w**2*(2.0e-4_wp*150)**2, "error of h**2 spin**2")
+      end do
+    end do
+  end subroutine top_order
+
+  !> Force of a simple pendulum's bar from its place and velocity, with the load that acts from
+  !> 0.3 s on: w**2 + (load + weight).bar.
+  pure real(wp) function bar_force_error(motion, i, push) result(error)
+    type(motion_t), intent(in) :: motion
+    integer, intent(in) :: i
+    real(wp), intent(in) :: push
+    real(wp) :: bar(2)
+
+    associate (r => motion%results(i))
+      bar = r%displacement(1:2, 2) - [1, 0]
+      error = norm2(r%reaction(1:2, 1) + (dot_product(r%velocity(1:2, 2), r%velocity(1:2, 2)) &
+                    + push*bar(1) - g*bar(2))*bar)
+    end associate
+  end function bar_force_error
+
+  subroutine jump_order()
+    real(wp), parameter :: radius(3) = [1.0_wp, 0.7_wp, 0.2_wp], push = 40.0_wp
+    type(motion_t) :: motion
+    type(model_t) :: model
+    real(wp) :: error(2)
+    integer :: i, k, r, form
+
+    do form = 1, 2
+      do r = form, 3  ! of places alone, errors of RHOINF 1 do not fade
+        error = 0
+        do k = 1, 2
+          call follow("pushed_pendulum", motion, model, [setting("h", 5.0e-3_wp/2**k), &
+                      setting("rho", radius(r)), setting("form", forms(form))])
+          if (motion%steps < 2) return
+          do i = 2, motion%steps
+            error(k) = max(error(k), bar_force_error(motion, i, &
+                             merge(push, 0.0_wp, motion%time(i) > 0.2999999_wp)))
+          end do
+        end do
+        call expect_close(observed_order(error(1:1), error(2:2)), 2.0_wp, 0.1_wp, &
+                          "order, STABILISED "//trim(forms(form)))
+      end do
+    end do
+  end subroutine jump_order
+
+  !> m r**2 angle'' + m g r cos(angle), and less than it the stress of the strain that is driven.
+  subroutine drive_order()
+    real(wp), parameter :: radius(3) = [1.0_wp, 0.8_wp, 0.0_wp], mass = 1.5_wp, arm = 0.8_wp
+    real(wp), parameter :: amplitude = 0.7_wp, rate = pi
+    type(motion_t) :: motion
+    type(model_t) :: model
+    real(wp) :: error(2), angle, torque
+    integer :: i, k, r, form
+
+    do form = 1, 2
+      do r = form, 3  ! of places alone, errors of RHOINF 1 do not fade
+        error = 0
+        do k = 1, 2
+          call follow("driven_pendulum", motion, model, [setting("h", 0.01_wp/2**k), &
+                      setting("rho", radius(r)), setting("form", forms(form))])
+          if (motion%steps < 2) return
+          do i = 2, motion%steps
+            angle = amplitude*sin(rate*motion%time(i))
+            torque = -mass*arm**2*rate**2*angle + mass*g*arm*cos(angle)
+            error(k) = max(error(k), abs(abs(motion%results(i)%joint_stress(1, 1)) - abs(torque)))
+          end do
+        end do
+        call expect_close(observed_order(error(1:1), error(2:2)), 2.0_wp, 0.1_wp, &
+                          "order, STABILISED "//trim(forms(form)))
+      end do
+    end do
+  end subroutine drive_order
+
+  !> A bar's velocity has no part along it; places alone leave one of the order of h**2.
+  subroutine exact_velocities()
+    type(motion_t) :: motion
+    type(model_t) :: model
+    real(wp) :: along(2)
+    integer :: i, form
+
+    along = 0
+    do form = 1, 2
+      call follow("pendulum", motion, model, [setting("h", 0.01_wp), setting("end", 2.0_wp), &
+                                              setting("rho", 0.9_wp), setting("form", forms(form))])
+      if (motion%steps < 2) return
+      do i = 1, motion%steps
+        associate (r => motion%results(i))
+          along(form) = max(along(form), abs(dot_product(r%velocity(1:2, 2), &
+                                                         r%displacement(1:2, 2) - [1, 0])))
+        end associate
+      end do
+    end do
+    call expect_close(along(1), 0.0_wp, 1.0e-13_wp, "velocity along the bar")
+    call expect(along(2) > 1.0e-6_wp, "this test can fail")
+  end subroutine exact_velocities
+
+  !> With RHOINF 1 the error of the bar's force stays what it is in the first swing.
+  subroutine no_growth()
+    type(motion_t) :: motion
+    type(model_t) :: model
+    real(wp) :: error(2)
+    integer :: i, half
+
+    call follow("pendulum", motion, model, [setting("h", 0.01_wp), setting("end", 40.0_wp)])
+    call expect(motion%steps == 4001 .and. size(motion%remarks) == 0, "runs, without a warning")
+    if (motion%steps /= 4001) return
+    error = 0
+    do i = 2, motion%steps
+      half = merge(1, 2, i < motion%steps/2)
+      error(half) = max(error(half), bar_force_error(motion, i, 0.0_wp))
+    end do
+    call expect(error(2) < 1.1_wp*error(1), "no growth")
+    call expect(error(1) < 3*g*0.01_wp**2*3*g, "of the order of h**2")
+  end subroutine no_growth
+
+end module test_transient_multipliers
