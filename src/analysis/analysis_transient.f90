@@ -61,9 +61,11 @@ contains
                       model%rayleigh(1), motion, error)
     if (analysis%iterations > 0) motion%iterations = analysis%iterations
     motion%stabilised = analysis%stabilised
-    if (system%multipliers > 0 .and. analysis%spectral_radius >= 1 .and. .not. motion%stabilised) &
-      call recorder%remark("warning: RHOINF 1 with held strains: their forces may grow slowly, "// &
-                           "as nothing damps errors; RHOINF 0.9 does, or STABILISED ON")
+    if (system%multipliers > 0 .and. analysis%spectral_radius >= 1 .and. &
+        .not. motion%stabilised) then
+      call recorder%remark("warning: RHOINF 1 with held strains and STABILISED OFF: their "// &
+                           "forces may grow, as nothing damps errors; STABILISED ON does")
+    end if
     if (allocated(error)) then
     else if (present(point)) then
       grid = new_time_grid(analysis, point%start)

@@ -46,9 +46,9 @@ contains
     call restart_motion(part_of_step*h, level, motion, error)
   end subroutine start_motion
 
-  !> Velocities that satisfy the constraints, M a + C'mu = f - h - D'sigma, C a = rates of the targets
-  !> - v'Hv; with the matrix of a very short step, whose stiffness gives coordinates without mass
-  !> theirs. Left in flow and iterate.
+  !> Velocities that satisfy the constraints, M a + C'mu = f - h - D'sigma, C a = rates of the
+  !> targets - v'Hv; with the matrix of a very short step, whose stiffness gives coordinates without
+  !> mass theirs. Left in flow and iterate.
   subroutine restart_motion(h, level, motion, error)
     real(wp), intent(in) :: h          !< length of the very short step [T]
     real(wp), intent(in) :: level(:)
@@ -89,13 +89,13 @@ contains
     call assemble_here(motion, level)
   end subroutine restart_motion
 
-  !> Give the scheme's own acceleration, and unless stabilised the velocities across constraints, the
-  !> values that steps of length h keep: a = v' + lead h v'', and the part of
+  !> Give the scheme's own acceleration, and unless stabilised the velocities across constraints,
+  !> the values that steps of length h keep: a = v' + lead h v'', and the part of
   !> h^2 (place_error v'' + w' x w/12) that changes held strains. Else these start an error of the
   !> multipliers of first order, which fades like RHOINF^n.
   !>
-  !> v'' is the difference of accelerations at the present and after part of a step, by the matrix of
-  !> a whole one: vibrations that the steps cannot follow then add nothing to it.
+  !> v'' is the difference of accelerations at the present and after part of a step, by the matrix
+  !> of a whole one: vibrations that the steps cannot follow then add nothing to it.
   subroutine settle_motion(h, level, motion, error)
     real(wp), intent(in) :: h, level(:)
     type(dynamics_t), intent(inout) :: motion
@@ -127,7 +127,7 @@ contains
   end subroutine settle_motion
 
   !> How fast the accelerations and multipliers of now fail to balance: rate of
-  !> f - h - D'sigma - C'mu - M a, and of what held strains' second rates lack, as a right-hand side.
+  !> f - h - D'sigma - C'mu - M a, and of what held strains' second rates lack, as right-hand side.
   !> The motion is assembled at the present and left so, but for the matrix.
   subroutine unbalance_rate(dt, level, motion, b)
     real(wp), intent(in) :: dt, level(:)

@@ -91,8 +91,9 @@ contains
     real(wp) :: pseudo(size(increment))
 
     pseudo = flow%pseudo
-    if (flow%step > 0 .and. abs(h - flow%step) > same_step*h) &
+    if (flow%step > 0 .and. abs(h - flow%step) > same_step*h) then
       pseudo = flow%acceleration + h/flow%step*(flow%pseudo - flow%acceleration)
+    end if
     next%acceleration = flow%acceleration
     next%pseudo = (flow%acceleration - scheme%alpha_m*pseudo)/(1 - scheme%alpha_m)
     next%velocity = flow%velocity + h*((1 - scheme%gamma)*pseudo + scheme%gamma*next%pseudo)

@@ -24,8 +24,8 @@ contains
         "equal steps STEP, or by steps whose error is below TOL. Loads not yet applied act in "// &
         "full, or as their FUNCTION of time says. RHOINF from 1 (no numerical damping) to 0 "// &
         "(most); EVERY: time from one output to the next, default each step. STABILISED OFF "// &
-        "holds the places of constraints alone, not their velocities: the classical form, whose "// &
-        "multipliers are less accurate and with RHOINF 1 may grow", &
+        "holds the places of constraints alone, not their velocities: the classical form, "// &
+        "whose multipliers are less accurate and with RHOINF 1 may grow", &
         "XF 2 0 0 -6 FUNCTION wave|TRANSIENT TEND 2 STEP 0.01 EVERY 0.05|TRANSIENT TEND 3 "// &
         "TOL 1e-4", "mode 1", read_transient), &
       keyword_t("KINEMATIC", "analysis", "", times, &

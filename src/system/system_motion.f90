@@ -62,8 +62,8 @@ contains
 
     do i = from, to
       associate (analysis => model%analysis(i))
-        if (any(time_analyses == analysis%kind) .and. analysis%pattern > 0) &
-          timed(analysis%pattern) = .true.
+        if (.not. any(time_analyses == analysis%kind) .or. analysis%pattern == 0) cycle
+        timed(analysis%pattern) = .true.
       end associate
     end do
   end subroutine mark_timed

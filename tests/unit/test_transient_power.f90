@@ -118,8 +118,8 @@ contains
   end subroutine jump
 
   !> The error of a step is held, which goes with h**3; that of the motion goes with h**2, so with
-  !> the tolerance to the power 2/3. So does that of the force in the bar, w**2 - g y, although steps
-  !> change their length.
+  !> the tolerance to the power 2/3. So does that of the force in the bar, w**2 - g y, although
+  !> steps change their length.
   subroutine adaptive()
     type(motion_t) :: motion
     type(model_t) :: model
