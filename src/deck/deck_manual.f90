@@ -3,7 +3,7 @@ module deck_manual
   use text, only: upper, joined, nearest_word
   use deck_handler, only: keyword_t
   use deck_keywords, only: keywords
-  use deck_wording, only: alternatives
+  use deck_wording, only: alternatives, form_text
   use deck_usage, only: usage_t, argument_t, parse_usage, kind_real, kind_choice, &
                         kind_id, kind_node, kind_element, kind_nodes, kind_elements, kind_count, &
                         kind_mode, kind_component, kind_literal
@@ -85,7 +85,7 @@ contains
 
     call parse_usage(keyword%name, keyword%forms, keyword%options, usage)
     do i = 1, size(usage%form)
-      write (unit, "(a)") form_line(usage, i)
+      write (unit, "(a)") form_text(usage, i, with_options=.true.)
     end do
     write (unit, "(4x, a)") trim(keyword%name)//" "//trim(keyword%help)//"."
     allocate (arguments, source=arguments_of(usage))
@@ -99,27 +99,6 @@ contains
     write (unit, "(a)") "  example:"
     call write_example(unit, keyword%example, "    ")
   end subroutine describe
-
-  !> `NODE id x y z`.
-  function form_line(usage, i) result(line)
-    type(usage_t), intent(in) :: usage
-    integer, intent(in) :: i
-    character(len=:), allocatable :: line
-    integer :: k
-
-    line = trim(usage%name)
-    associate (form => usage%form(i))
-      do k = 1, form%arguments
-        if (k > form%least) then
-          line = line//" ["//trim(form%argument(k)%name)//"]"
-        else
-          line = line//" "//trim(form%argument(k)%name)
-        end if
-      end do
-      if (form%repeats) line = line//" ..."
-    end associate
-    if (size(usage%option) > 0) line = line//" [options]"
-  end function form_line
 
   !> The arguments of all forms, each name once.
   pure function arguments_of(usage) result(arguments)
@@ -279,7 +258,7 @@ contains
     call parse_usage(keyword%name, keyword%forms, keyword%options, usage)
     write (unit, "(/, a, /)") "### "//title(keyword)
     do k = 1, size(usage%form)
-      write (unit, "(a)") "    "//form_line(usage, k)
+      write (unit, "(a)") "    "//form_text(usage, k, with_options=.true.)
     end do
     write (unit, "(/, a)") "`"//trim(keyword%name)//"` "//trim(keyword%help)//"."
     call markdown_table(unit, usage)

@@ -5,7 +5,7 @@ module deck_wording
   implicit none
   private
 
-  public :: alternatives, option_values, counts, usage_text
+  public :: alternatives, option_values, counts, usage_text, form_text
 
 contains
 
@@ -69,28 +69,50 @@ contains
     phrase = trim(phrase)
   end function counts
 
-  !> How a keyword is written: `NODE id x y z`.
+  !> How a keyword is written, all forms: `BEAM id p q [ox oy oz] [options] | BEAM ...`.
   function usage_text(usage) result(phrase)
     type(usage_t), intent(in) :: usage
     character(len=:), allocatable :: phrase
-    integer :: i, k
+    integer :: k
 
     phrase = ""
     do k = 1, size(usage%form)
-      associate (form => usage%form(k))
-        if (k > 1) phrase = phrase//" | "
-        phrase = phrase//trim(usage%name)
-        do i = 1, form%arguments
-          if (i > form%least) then
-            phrase = phrase//" ["//trim(form%argument(i)%name)//"]"
-          else
-            phrase = phrase//" "//trim(form%argument(i)%name)
-          end if
+      if (k > 1) phrase = phrase//" | "
+      phrase = phrase//form_text(usage, k, with_options=k == size(usage%form))
+    end do
+  end function usage_text
+
+  !> How one form of a keyword is written, with the options that it must have: `TRANSIENT TEND t
+  !> [options]`.
+  function form_text(usage, k, with_options) result(phrase)
+    type(usage_t), intent(in) :: usage
+    integer, intent(in) :: k
+    logical, intent(in) :: with_options
+    character(len=:), allocatable :: phrase
+    integer :: i, j
+
+    phrase = trim(usage%name)
+    associate (form => usage%form(k))
+      do i = 1, form%arguments
+        if (i > form%least) then
+          phrase = phrase//" ["//trim(form%argument(i)%name)//"]"
+        else
+          phrase = phrase//" "//trim(form%argument(i)%name)
+        end if
+      end do
+      if (form%repeats) phrase = phrase//" ..."
+    end associate
+    if (.not. with_options) return
+    do i = 1, size(usage%option)
+      associate (option => usage%option(i))
+        if (.not. option%required) cycle
+        phrase = phrase//" "//trim(option%name)
+        do j = 1, option%values
+          phrase = phrase//" "//trim(option%value(j)%name)
         end do
-        if (form%repeats) phrase = phrase//" ..."
       end associate
     end do
-    if (size(usage%option) > 0) phrase = phrase//" [options]"
-  end function usage_text
+    if (.not. all(usage%option%required)) phrase = phrase//" [options]"
+  end function form_text
 
 end module deck_wording
