@@ -22,6 +22,7 @@ module analysis_run
   use analysis_eigen, only: run_eigen
   use analysis_transient, only: run_transient
   use analysis_kinematic, only: run_kinematic
+  use drive_jumps, only: warn_of_jumps
   use analysis_compliance, only: run_compliance
   use generalized_alpha, only: flow_t
   use restart_point, only: point_t
@@ -190,10 +191,12 @@ contains
       call run_eigen(model, system, solver, analysis, level, iterate, recorder, error)
     case (analysis_transient)
       if (analysis%pattern > 0) system%timed(analysis%pattern) = .true.
+      call warn_of_jumps(model, system, analysis, course%time, recorder)
       call run_transient(model, system, analysis, course%time, level, iterate, course%flow, &
                          recorder, error, course%point)
     case (analysis_kinematic, analysis_inverse)
       if (analysis%pattern > 0) system%timed(analysis%pattern) = .true.
+      call warn_of_jumps(model, system, analysis, course%time, recorder)
       call run_kinematic(model, system, analysis, course%time, level, iterate, course%flow, &
                          recorder, error)
     case (analysis_compliance)

@@ -11,6 +11,7 @@ module energy_account
   private
 
   public :: account_t, open_account, reopen_account, enter_step, motion_results, rate_results
+  public :: motion_energy
 
   !> Energies at the start, works since then [F L], and what the next step's trapezes begin with.
   type :: account_t
@@ -31,15 +32,18 @@ contains
     call reopen_account(motion, account)
   end subroutine open_account
 
-  !> Begin new trapezes with the present forces, after they jumped.
-  subroutine reopen_account(motion, account)
+  !> Begin new trapezes with the present forces, after they jumped. If velocities did too, a drive
+  !> gave them the difference of their energy to `kinetic`, that before [F L].
+  subroutine reopen_account(motion, account, kinetic)
     type(dynamics_t), intent(in) :: motion
     type(account_t), intent(inout) :: account
+    real(wp), intent(in), optional :: kinetic
 
     account%external = motion%iterate%external
     account%stress = motion%iterate%stress
     account%target = motion%iterate%target
     account%power = lost_power(motion)
+    if (present(kinetic)) account%motion = account%motion + motion_energy(motion) - kinetic
   end subroutine reopen_account
 
   !> Enter a step of length h with its increment of the coordinates.

@@ -3,9 +3,7 @@ module motion_restart
   use kinds, only: wp
   use errors, only: error_t, fail, exit_deck
   use model_data, only: model_t
-  use dynamic_equilibrium, only: dynamics_t
-  use energy_account, only: account_t
-  use recorder, only: step_t
+  use motion_steps, only: passage_t
   use restart_point, only: point_t
   implicit none
   private
@@ -16,74 +14,69 @@ module motion_restart
 
 contains
 
-  !> The point of a motion at a time at which the patterns stand at `level`; `h`: length of the step
-  !> to try next [T]. Which analysis it is and what that has recorded is the caller's to say.
-  pure subroutine make_point(model, motion, account, record, time, level, h, point)
+  !> The point of a motion on its way. Which analysis it is and what that has recorded is the
+  !> caller's to say.
+  pure subroutine make_point(model, passage, point)
     type(model_t), intent(in) :: model
-    type(dynamics_t), intent(in) :: motion
-    type(account_t), intent(in) :: account
-    type(step_t), intent(in) :: record
-    real(wp), intent(in) :: time, level(:), h
+    type(passage_t), intent(in) :: passage
     type(point_t), intent(inout) :: point
 
-    point%time = time
-    point%state = motion%iterate%state
-    associate (flow => motion%flow, a => account)
-      point%rest = [h, a%opening, a%loads, a%motion, a%dissipated, a%power, flow%step, &
-                    real([record%iterations, record%cutbacks, size(level)], wp), level, &
-                    motion%iterate%stress, flow%velocity, flow%acceleration, flow%pseudo, &
+    point%time = passage%time
+    point%state = passage%motion%iterate%state
+    associate (motion => passage%motion, flow => passage%motion%flow, a => passage%account, &
+               level => passage%level)
+      point%rest = [passage%step, a%opening, a%loads, a%motion, a%dissipated, a%power, flow%step, &
+                    real([passage%record%iterations, passage%record%cutbacks, size(level)], wp), &
+                    level, motion%iterate%stress, flow%velocity, flow%acceleration, flow%pseudo, &
                     motion%solver%scales(), a%external, a%stress, a%target, shape_of(model)]
     end associate
   end subroutine make_point
 
   !> Put a motion, made for the same model, where a point stands; levels of patterns that the point
   !> does not know are left.
-  subroutine take_up(point, model, motion, account, record, time, level, h, error)
+  subroutine take_up(point, model, passage, error)
     type(point_t), intent(in) :: point
     type(model_t), intent(in) :: model
-    type(dynamics_t), intent(inout) :: motion
-    type(account_t), intent(out) :: account
-    type(step_t), intent(inout) :: record
-    real(wp), intent(inout) :: time, level(:)
-    real(wp), intent(out) :: h
+    type(passage_t), intent(inout) :: passage
     type(error_t), allocatable, intent(out) :: error
     real(wp), allocatable :: scales(:)
     integer :: at, patterns
 
     patterns = nint(point%rest(numbers))
-    allocate (scales, source=motion%solver%scales())
-    h = point%rest(1)
-    associate (n => motion%system%coordinates, strains => size(motion%iterate%stress))
-      if (patterns > size(level) .or. size(point%rest) /= numbers + patterns + 4*n + 3*strains &
-          + size(scales) + size(shape_of(model))) then
-        call fail(error, exit_deck, "the restart point is that of another model")
-        return
-      end if
-      allocate (account%external(n), account%stress(strains), account%target(strains))
-    end associate
-    time = point%time
-    motion%iterate%state = point%state
-    motion%flow%step = point%rest(7)
-    record%iterations = nint(point%rest(8))
-    record%cutbacks = nint(point%rest(9))
-    at = numbers
-    call take(level(:patterns))
-    call take(motion%iterate%stress)
-    call take(motion%flow%velocity)
-    call take(motion%flow%acceleration)
-    call take(motion%flow%pseudo)
-    call take(scales)
-    call motion%solver%set_scales(scales)
-    associate (a => account, r => point%rest)
+    associate (motion => passage%motion, r => point%rest, a => passage%account)
+      allocate (scales, source=motion%solver%scales())
+      associate (n => motion%system%coordinates, strains => size(motion%iterate%stress))
+        if (patterns > size(passage%level) .or. size(r) /= numbers + patterns + 4*n + 3*strains &
+            + size(scales) + size(shape_of(model))) then
+          call fail(error, exit_deck, "the restart point is that of another model")
+          return
+        end if
+        allocate (a%external(n), a%stress(strains), a%target(strains))
+      end associate
+      passage%time = point%time
+      passage%step = r(1)
       a%opening = r(2)
       a%loads = r(3)
       a%motion = r(4)
       a%dissipated = r(5)
       a%power = r(6)
+      motion%flow%step = r(7)
+      passage%record%step = point%states - 1
+      passage%record%iterations = nint(r(8))
+      passage%record%cutbacks = nint(r(9))
+      motion%iterate%state = point%state
+      at = numbers
+      call take(passage%level(:patterns))
+      call take(motion%iterate%stress)
+      call take(motion%flow%velocity)
+      call take(motion%flow%acceleration)
+      call take(motion%flow%pseudo)
+      call take(scales)
+      call motion%solver%set_scales(scales)
+      call take(a%external)
+      call take(a%stress)
+      call take(a%target)
     end associate
-    call take(account%external)
-    call take(account%stress)
-    call take(account%target)
 
   contains
 

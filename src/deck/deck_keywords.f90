@@ -174,7 +174,8 @@ contains
 
     table = [ &
       keyword_t("FUNCTION", "load", "name:word RAMP s0:1 s1:1", "", &
-        "rises from 0 at s0 to 1 at s1; s is the load factor in STATIC, else time", &
+        "rises from 0 at s0 to 1 at s1; s is the load factor in STATIC, else time. A motion in "// &
+        "time that it drives starts and stops at once, by blows", &
         "FUNCTION lift RAMP 0 0.5", "", read_ramp), &
       keyword_t("FUNCTION", "load", "name:word SINE amplitude:1 cycles:1 phase:1?", "", &
         "is amplitude sin(2 pi cycles s + phase)", &
@@ -186,7 +187,8 @@ contains
         "comes twice", &
         "FUNCTION path TABLE 0 0  0.5 1  0.5 0.8  1 0.2", "", read_table), &
       keyword_t("FUNCTION", "load", "name:word EXPR expression:text", "", &
-        "is an expression in t, which stands for s", &
+        "is an expression in t, which stands for s. TRANSIENT does not look for its kinks: for "// &
+        "a motion with such, use RAMP or TABLE", &
         "FUNCTION soft EXPR {t^2*(3-2*t)}", "", read_formula)]
   end function function_keywords
 

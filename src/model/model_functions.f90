@@ -7,7 +7,7 @@ module model_functions
   implicit none
   private
 
-  public :: function_value, function_jet, next_jump
+  public :: function_value, function_jet, next_jump, next_kink
 
   real(wp), parameter :: pi = acos(-1.0_wp)
 
@@ -28,6 +28,27 @@ contains
       jump = f%table(1, i)
     end do
   end function next_jump
+
+  !> The first jump of a function or of its slope behind s; huge if there is none, or it is in a
+  !> formula.
+  pure function next_kink(f, s) result(kink)
+    type(function_t), intent(in) :: f
+    real(wp), intent(in) :: s
+    real(wp) :: kink
+    integer :: low
+
+    kink = huge(kink)
+    select case (f%kind)
+    case (function_step)
+      kink = next_jump(f, s)
+    case (function_ramp)
+      kink = minval(f%parameter(1:2), f%parameter(1:2) > s)
+    case (function_table)
+      low = table_row(f%table, s)
+      if (low < size(f%table, 2)) kink = f%table(1, low + 1)
+    case default
+    end select
+  end function next_kink
 
   !> f(s), s being the load factor or time; NaN where a formula has no finite value.
   pure function function_value(f, s) result(value)

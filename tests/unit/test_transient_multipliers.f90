@@ -18,6 +18,8 @@ contains
     call run("multipliers: order 2 from a start at speed, a top", top_order)
     call run("multipliers: order 2 behind a jump of the load", jump_order)
     call run("multipliers: order 2 of a driving torque, at speed from the start on", drive_order)
+    call run("multipliers: order 2 across kinks of a drive, whose blows are its work", kinks)
+    call run("multipliers: a drive that jumps is told", jumping_drive)
     call run("multipliers: velocities satisfy the constraints", exact_velocities)
     call run("multipliers: no growth without numerical damping", no_growth)
     call run("multipliers: misaligned four-bar linkage as INVERSE finds it (FLX-08)", misaligned)
@@ -121,6 +123,50 @@ contains
       end do
     end do
   end subroutine drive_order
+
+  !> A mass set in motion and stopped at once, in the middle of a step and at its end: in between
+  !> its weight alone takes a torque. The drive gives and takes m r**2 w**2/2.
+  subroutine kinks()
+    real(wp), parameter :: mass = 1.5_wp, arm = 0.8_wp, start(2) = [0.305_wp, 0.3_wp]
+    type(motion_t) :: motion
+    type(model_t) :: model
+    real(wp) :: error(2), balance(2), angle, rate
+    integer :: i, j, k
+
+    do j = 1, 2
+      rate = 1/(0.7_wp - start(j))
+      error = 0
+      do k = 1, 2
+        call follow("ramped_pendulum", motion, model, [setting("h", 0.02_wp/2**k), &
+                                                       setting("t0", start(j))])
+        if (motion%steps < 2) return
+        do i = 1, motion%steps
+          associate (r => motion%results(i), t => motion%time(i))
+            angle = rate*min(max(t - start(j), 0.0_wp), 0.7_wp - start(j))
+            error(k) = max(error(k), abs(abs(r%joint_stress(1, 1)) - mass*g*arm*cos(angle)))
+            if (t < start(j) + 1.0e-6_wp .or. t > 0.7_wp - 1.0e-6_wp) cycle
+            call expect_close(r%energy(1), 0.5_wp*mass*(arm*rate)**2, 1.0e-10_wp, "kinetic")
+          end associate
+        end do
+        balance(k) = abs(motion%results(motion%steps)%energy(6))
+      end do
+      call expect(error(2) < 0.3_wp*error(1), "the torque's error goes with h**2")
+      call expect(error(1) < mass*g*arm*(rate*0.01_wp)**2, "and is of its order")
+      call expect(balance(2) < 0.3_wp*balance(1), "so does what is missing in the account")
+      call expect(balance(1) < mass*g*arm*(rate*0.01_wp)**2, "and is of its order")
+    end do
+  end subroutine kinks
+
+  subroutine jumping_drive()
+    type(motion_t) :: motion
+    type(model_t) :: model
+
+    call follow("jumping_drive", motion, model, [character(len=1) ::])
+    call expect(size(motion%remarks) == 1, "one remark")
+    if (size(motion%remarks) /= 1) return
+    call expect(index(motion%remarks(1)%s, "element 2 mode 1 (hinge) jumps at time 0.305") > 0, &
+                "what jumps, and when")
+  end subroutine jumping_drive
 
   !> A bar's velocity has no part along it; places alone leave one of the order of h**2.
   subroutine exact_velocities()
