@@ -4,7 +4,9 @@ module deck_function_cards
   use kinds, only: wp
   use formula, only: formula_t, formula_value, push_variable
   use model_data, only: function_t, function_ramp, function_sine, function_step, function_table, &
-                        function_formula
+                        function_formula, function_spline
+  use model_tables, only: spline_curvatures
+  use errors, only: error_t
   use deck_card, only: card_t
   use deck_draft, only: draft_t
   use deck_growth, only: grow
@@ -14,7 +16,7 @@ module deck_function_cards
   implicit none
   private
 
-  public :: read_ramp, read_sine, read_step, read_table, read_formula
+  public :: read_ramp, read_sine, read_step, read_table, read_spline, read_formula
 
 contains
 
@@ -50,23 +52,58 @@ contains
     type(card_t), intent(in) :: card
     type(draft_t), intent(inout) :: draft
     real(wp), allocatable :: table(:, :)
-    integer :: n, i
+    integer :: i
 
-    n = (card%positional - 2)/2
-    if (card%positional /= 2*n + 2) then
-      call draft%report%add_error(card%place(card%positional + 1), &
-                                  "an abscissa without value: a TABLE has pairs of numbers")
-      return
-    end if
-    allocate (table(2, n))
-    table = reshape(card%number(4:3 + 2*n), [2, n])
-    do i = 2, n
+    call read_pairs(card, draft, 2, table)
+    do i = 2, size(table, 2)
       if (table(1, i) >= table(1, i - 1)) cycle
       call draft%report%add_error(card%place(2 + 2*i), "the abscissas of a TABLE must not fall")
       return
     end do
-    call store(card, draft, function_table, table=table)
+    if (size(table) > 0) call store(card, draft, function_table, table=table)
   end subroutine read_table
+
+  !> FUNCTION name SPLINE s v s v ...
+  subroutine read_spline(card, draft)
+    type(card_t), intent(in) :: card
+    type(draft_t), intent(inout) :: draft
+    type(error_t), allocatable :: error
+    real(wp), allocatable :: table(:, :)
+    integer :: i
+
+    call read_pairs(card, draft, 3, table)
+    do i = 2, size(table, 2)
+      if (table(1, i) > table(1, i - 1)) cycle
+      call draft%report%add_error(card%place(2 + 2*i), "the abscissas of a SPLINE must rise")
+      return
+    end do
+    if (size(table, 2) == 1) then
+      call draft%report%add_error(card%place(4), "a SPLINE has two points or more")
+    else if (size(table, 2) > 1) then
+      call spline_curvatures(table(1, :), table(2, :), table(3, :), error)
+      if (allocated(error)) call draft%report%add_error(card%place(3), error%message)
+      call store(card, draft, function_spline, table=table)
+    end if
+  end subroutine read_spline
+
+  !> Pairs of abscissa and value; nothing if one is left over.
+  subroutine read_pairs(card, draft, rows, table)
+    type(card_t), intent(in) :: card
+    type(draft_t), intent(inout) :: draft
+    integer, intent(in) :: rows                        !< of the table, zero from the third on
+    real(wp), allocatable, intent(out) :: table(:, :)  !< rows x n
+    integer :: n
+
+    n = (card%positional - 2)/2
+    if (card%positional /= 2*n + 2) then
+      call draft%report%add_error(card%place(card%positional + 1), "an abscissa without value: "// &
+                                  "a "//trim(card%word(3))//" has pairs of numbers")
+      n = 0
+    end if
+    allocate (table(rows, n))
+    table = 0
+    table(1:2, :) = reshape(card%number(4:3 + 2*n), [2, n])
+  end subroutine read_pairs
 
   !> FUNCTION name EXPR {expression in t}
   subroutine read_formula(card, draft)

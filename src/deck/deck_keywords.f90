@@ -7,7 +7,8 @@ module deck_keywords
   use deck_section_cards, only: read_constants, read_shape, read_plates, read_point, read_plate, &
                                 shape_options
   use section_shapes, only: shape_rules
-  use deck_function_cards, only: read_ramp, read_sine, read_step, read_table, read_formula
+  use deck_function_cards, only: read_ramp, read_sine, read_step, read_table, &
+                                 read_spline, read_formula
   use deck_element_keywords, only: beam_keywords, joint_keywords, mode_keywords, motion_keywords
   use deck_load_cards, only: read_fix, read_marker, read_xf, read_delxf, read_gravity, &
                              read_rotation, read_stationary, &
@@ -186,6 +187,10 @@ contains
         "runs straight between pairs of s and value, is constant outside and jumps where an s "// &
         "comes twice", &
         "FUNCTION path TABLE 0 0  0.5 1  0.5 0.8  1 0.2", "", read_table), &
+      keyword_t("FUNCTION", "load", "name:word SPLINE s:1 v:1+", "", &
+        "runs smoothly through pairs of s and value, a cubic spline, and is constant outside: "// &
+        "for measured motions, whose accelerations a TABLE has only as blows at its points", &
+        "FUNCTION path SPLINE 0 0  0.3 0.2  0.6 0.8  1 1", "", read_spline), &
       keyword_t("FUNCTION", "load", "name:word EXPR expression:text", "", &
         "is an expression in t, which stands for s. TRANSIENT does not look for its kinks: for "// &
         "a motion with such, use RAMP or TABLE", &

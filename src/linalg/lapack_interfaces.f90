@@ -5,6 +5,7 @@ module lapack_interfaces
   private
 
   public :: dsytrf_rook, dsytrs_rook, dgetrf, dgetrs, dgeqp3, dormqr, dtrtrs, dsyev, dgeev
+  public :: dgtsv
 
   interface
     !> Symmetric indefinite factorization P L D L^T P^T with bounded (rook) pivoting.
@@ -52,6 +53,15 @@ module lapack_interfaces
       real(wp), intent(inout) :: b(ldb, *)
       integer, intent(out) :: info
     end subroutine dgetrs
+
+    !> Tridiagonal system; all diagonals are overwritten.
+    subroutine dgtsv(n, nrhs, dl, d, du, b, ldb, info)
+      import :: wp
+      implicit none
+      integer, intent(in) :: n, nrhs, ldb
+      real(wp), intent(inout) :: dl(*), d(*), du(*), b(ldb, *)
+      integer, intent(out) :: info
+    end subroutine dgtsv
 
     !> QR factorization with column pivoting.
     subroutine dgeqp3(m, n, a, lda, jpvt, tau, work, lwork, info)

@@ -40,7 +40,8 @@ module model_data
 
   !> Kinds of functions of the load factor (or time).
   integer, parameter, public :: function_ramp = 1, function_sine = 2, function_step = 3, &
-                                function_table = 4, function_formula = 5
+                                function_table = 4, function_formula = 5, &
+                                function_spline = 6
 
   !> Kinds of analyses.
   integer, parameter, public :: analysis_static = 1, analysis_buckling = 2, analysis_eigen = 3, &
@@ -234,7 +235,8 @@ module model_data
     character(len=name_length) :: name = ""
     integer :: kind = 0                      !< one of `function_*`
     real(wp) :: parameter(3) = 0.0_wp        !< RAMP s0 s1; SINE amplitude cycles phase; STEP s0
-    real(wp), allocatable :: table(:, :)     !< 2 x n: abscissas and values
+    real(wp), allocatable :: table(:, :)     !< 2 x n: abscissas and values; SPLINE 3 x n: and
+                                             !< second derivatives
     type(formula_t) :: formula
     type(place_t) :: place
   end type function_t

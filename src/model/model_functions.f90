@@ -3,7 +3,9 @@ module model_functions
   use kinds, only: wp
   use formula, only: formula_value
   use formula_derivatives, only: formula_jet
-  use model_data, only: function_t, function_ramp, function_sine, function_step, function_table
+  use model_data, only: function_t, function_ramp, function_sine, function_step, function_table, &
+                        function_spline
+  use model_tables, only: table_row, table_value, table_slope, spline_jet
   implicit none
   private
 
@@ -46,6 +48,8 @@ contains
     case (function_table)
       low = table_row(f%table, s)
       if (low < size(f%table, 2)) kink = f%table(1, low + 1)
+    case (function_spline)
+      kink = minval(f%table(1, [1, size(f%table, 2)]), f%table(1, [1, size(f%table, 2)]) > s)
     case default
     end select
   end function next_kink
@@ -54,7 +58,7 @@ contains
   pure function function_value(f, s) result(value)
     type(function_t), intent(in) :: f
     real(wp), intent(in) :: s
-    real(wp) :: value
+    real(wp) :: value, jet(0:2)
 
     associate (p => f%parameter)
       select case (f%kind)
@@ -66,6 +70,9 @@ contains
         value = merge(1.0_wp, 0.0_wp, s >= p(1))
       case (function_table)
         value = table_value(f%table, s)
+      case (function_spline)
+        call spline_jet(f%table, s, jet)
+        value = jet(0)
       case default
         value = formula_value(f%formula, s)
       end select
@@ -92,59 +99,12 @@ contains
       case (function_step)
       case (function_table)
         jet(1) = table_slope(f%table, s)
+      case (function_spline)
+        call spline_jet(f%table, s, jet)
       case default
         call formula_jet(f%formula, s, jet)
       end select
     end associate
   end subroutine function_jet
-
-  !> Linear between the rows' pairs, constant outside; at a jump the value behind it.
-  pure function table_value(table, s) result(value)
-    real(wp), intent(in) :: table(:, :)  !< 2 x n: abscissas, not falling, and values
-    real(wp), intent(in) :: s
-    real(wp) :: value
-    integer :: low
-
-    low = table_row(table, s)
-    if (low == 0) then
-      value = table(2, 1)
-    else if (low == size(table, 2)) then
-      value = table(2, low)
-    else
-      value = table(2, low) + (table(2, low + 1) - table(2, low)) &
-              *(s - table(1, low))/(table(1, low + 1) - table(1, low))
-    end if
-  end function table_value
-
-  !> Slope to the right of s.
-  pure function table_slope(table, s) result(slope)
-    real(wp), intent(in) :: table(:, :)  !< as for `table_value`
-    real(wp), intent(in) :: s
-    real(wp) :: slope
-    integer :: low
-
-    low = table_row(table, s)
-    slope = 0
-    if (low == 0 .or. low == size(table, 2)) return
-    slope = (table(2, low + 1) - table(2, low))/(table(1, low + 1) - table(1, low))
-  end function table_slope
-
-  !> The last pair at or before s; 0: none.
-  pure integer function table_row(table, s) result(low)
-    real(wp), intent(in) :: table(:, :)
-    real(wp), intent(in) :: s
-    integer :: high, middle
-
-    low = 0
-    high = size(table, 2) + 1
-    do while (high - low > 1)
-      middle = (low + high)/2
-      if (table(1, middle) <= s) then
-        low = middle
-      else
-        high = middle
-      end if
-    end do
-  end function table_row
 
 end module model_functions

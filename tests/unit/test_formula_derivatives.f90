@@ -6,8 +6,10 @@ module test_formula_derivatives
   use formula, only: formula_t, formula_value, function_names, first_of_two, first_function
   use formula_derivatives, only: formula_jet
   use model_data, only: function_t, function_ramp, function_sine, function_step, function_table, &
-                        function_formula
-  use model_functions, only: function_jet, function_value
+                        function_formula, function_spline
+  use model_functions, only: function_jet, function_value, next_kink
+  use model_tables, only: spline_curvatures
+  use errors, only: error_t
   use deck_expression, only: compile_expression, scope_t, problem_t
   use deck_settings, only: settings_t
   implicit none
@@ -24,6 +26,7 @@ contains
     call run("formula derivatives: every operator, by differences", by_differences)
     call run("formula derivatives: values are those of the formula", same_values)
     call run("formula derivatives: to the right of kinks", kinks)
+    call run("formula derivatives: splines", splines)
     call run("formula derivatives: undefined or too large", undefined)
     call run("formula derivatives: RAMP, SINE, STEP, TABLE, EXPR", functions)
   end subroutine run_formula_derivatives_tests
@@ -211,6 +214,53 @@ contains
     f%formula = compiled("t^2*(3 - 2*t)")
     call expect_jet("EXPR", f, t, [t**2*(3 - 2*t), 6*t - 6*t**2, 6 - 12*t])
   end subroutine functions
+
+  !> Cubics are their own splines, of three points parabolas, of two lines; others come near with a
+  !> fourth power of the distance of points, ends included.
+  subroutine splines()
+    real(wp), parameter :: s(5) = [-1.0_wp, 0.0_wp, 0.4_wp, 1.5_wp, 2.0_wp], t = 0.9_wp
+    type(function_t) :: f
+    real(wp) :: miss(2), jet(0:2)
+    integer :: i, k, n
+
+    f = spline_of(s, s**3 - 2*s**2 + s)
+    do i = 1, 8
+      associate (x => -0.9_wp + 0.4_wp*(i - 1))
+        call expect_jet("SPLINE, a cubic", f, x, [x**3 - 2*x**2 + x, 3*x**2 - 4*x + 1, 6*x - 4])
+      end associate
+    end do
+    call expect_jet("before", f, -1.5_wp, [-4.0_wp, 0.0_wp, 0.0_wp])
+    call expect_jet("behind", f, 2.5_wp, [2.0_wp, 0.0_wp, 0.0_wp])
+    call expect_close([next_kink(f, -3.0_wp), next_kink(f, 0.0_wp)], [-1.0_wp, 2.0_wp], 0.0_wp, &
+                      "kinks at its ends")
+    f = spline_of(s(2:4), s(2:4)**2)
+    call expect_jet("SPLINE, three points", f, t, [t**2, 2*t, 2.0_wp])
+    f = spline_of(s(2:5:3), [1.0_wp, 5.0_wp])
+    call expect_jet("SPLINE, two points", f, t, [1 + 2*t, 2.0_wp, 0.0_wp])
+    miss = 0
+    do k = 1, 2
+      n = 20*k
+      f = spline_of([(real(i, wp)/n, i=0, n)], [(exp(real(i, wp)/n), i=0, n)])
+      do i = 0, 999
+        call function_jet(f, i/1000.0_wp, jet)
+        miss(k) = max(miss(k), abs(jet(0) - exp(i/1000.0_wp)))
+      end do
+    end do
+    call expect_close(log(miss(1)/miss(2))/log(2.0_wp), 4.0_wp, 0.3_wp, "order")
+  end subroutine splines
+
+  function spline_of(s, v) result(f)
+    real(wp), intent(in) :: s(:), v(:)
+    type(function_t) :: f
+    type(error_t), allocatable :: error
+
+    f%kind = function_spline
+    allocate (f%table(3, size(s)))
+    f%table(1, :) = s
+    f%table(2, :) = v
+    call spline_curvatures(s, v, f%table(3, :), error)
+    call expect(.not. allocated(error), "curvatures")
+  end function spline_of
 
   !> A function of straight pieces.
   subroutine expect_jets(name, f, s, value, slope)

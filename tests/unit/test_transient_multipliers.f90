@@ -20,6 +20,7 @@ contains
     call run("multipliers: order 2 of a driving torque, at speed from the start on", drive_order)
     call run("multipliers: order 2 across kinks of a drive, whose blows are its work", kinks)
     call run("multipliers: a drive that jumps is told", jumping_drive)
+    call run("multipliers: torque of a measured motion, as SPLINE and as TABLE", measured)
     call run("multipliers: velocities satisfy the constraints", exact_velocities)
     call run("multipliers: no growth without numerical damping", no_growth)
     call run("multipliers: misaligned four-bar linkage as INVERSE finds it (FLX-08)", misaligned)
@@ -167,6 +168,30 @@ contains
     call expect(index(motion%remarks(1)%s, "element 2 mode 1 (hinge) jumps at time 0.305") > 0, &
                 "what jumps, and when")
   end subroutine jumping_drive
+
+  !> Through points of a sine 0.05 apart a spline's second derivative is off by 0.05**2/12 of the
+  !> fourth one, away from the ends; a table has none, which is told.
+  subroutine measured()
+    real(wp), parameter :: mass = 1.5_wp, arm = 0.8_wp, off = 0.05_wp**2/12*0.7_wp*pi**4
+    type(motion_t) :: motion
+    type(model_t) :: model
+    real(wp) :: angle, torque
+    integer :: i
+
+    call follow("measured_pendulum", motion, model, [character(len=1) ::])
+    call expect(motion%steps == 101 .and. size(motion%remarks) == 0, "runs, no remarks")
+    if (motion%steps /= 101) return
+    do i = 21, 81
+      angle = 0.7_wp*sin(pi*motion%time(i))
+      torque = mass*arm*(g*cos(angle) - arm*pi**2*angle)
+      call expect_close(abs(motion%results(i)%joint_stress(1, 1)), torque, &
+                        1.5_wp*mass*arm**2*off, "torque")
+    end do
+    call follow("measured_pendulum", motion, model, ["drive=straight"])
+    call expect(size(motion%remarks) == 1, "one remark")
+    if (size(motion%remarks) /= 1) return
+    call expect(index(motion%remarks(1)%s, "kinks at each point") > 0, "of the kinks")
+  end subroutine measured
 
   !> A bar's velocity has no part along it; places alone leave one of the order of h**2.
   subroutine exact_velocities()
