@@ -11,14 +11,16 @@ module analysis_check
   use system_data, only: system_t
   use system_build, only: build_system, find_system_pattern
   use system_assembly, only: iterate_t, new_iterate, assemble
-  use system_constraints, only: drop_redundant
-  use system_dependence, only: dependence_t, find_dependences
+  use system_dependence, only: dependence_t
   use system_mobility, only: free_motion_t, find_free_motions
   use system_names, only: coordinate_name, strain_name, node_name
   use start_assembly, only: assemble_start
   use mode_results, only: modes_t, new_modes, add_mode, unit_factor
-  use model_sentences, only: dependence_sentence, motion_sentence, release_card, motion_name
-  use model_soundness, only: refuse_contradiction, refusal, count_line
+  use singular_refusal, only: check_departure
+  use model_sentences, only: dependence_sentence, singular_sentence, motion_sentence, &
+                             release_card, motion_name
+  use model_soundness, only: redundant_t, sort_redundant, begins_with_motion, refusal, &
+                             singular_cure, count_line
   implicit none
   private
 
@@ -47,9 +49,11 @@ module analysis_check
     integer :: strain(0:3) = 0                   !< generalized strains by status
     integer :: used = 0, held = 0, free = 0      !< coordinates
     integer :: constraints = 0, redundant = 0    !< equations
+    integer :: everywhere = 0, singular = 0      !< redundant: in general, only where it is drawn
     integer :: freedoms = 0                      !< free coordinates less independent constraints
     integer :: mobile = 0                        !< of these: free motions
-    type(finding_t), allocatable :: overconstrained(:), motion(:)   !< as many as are explained
+    !> As many as are explained.
+    type(finding_t), allocatable :: overconstrained(:), only_here(:), motion(:)
     type(string_t), allocatable :: defaults(:)   !< what cards of sections left to the program
     character(len=:), allocatable :: contradiction  !< of prescribed motions; empty: none
     character(len=:), allocatable :: refusal     !< what makes the model unsound; empty: nothing
@@ -65,29 +69,36 @@ contains
     type(model_t), intent(in) :: model
     type(check_t), intent(out) :: check
     type(error_t), allocatable, intent(out) :: error
-    type(error_t), allocatable :: contradiction
     type(system_t) :: system
     type(state_t) :: state
-    integer, allocatable :: dropped(:)
+    type(redundant_t) :: found
+    type(error_t), allocatable :: refused
 
     check%contradiction = ""
     check%refusal = ""
-    allocate (check%overconstrained(0), check%motion(0))
+    allocate (check%motion(0))
     call build_system(model, system)
     check%constraints = system%multipliers
     call assemble_start(model, system, state, error)
-    if (.not. allocated(error)) call drop_redundant(system, state, dropped, error)
+    if (.not. allocated(error)) call sort_redundant(model, system, state, found, error)
     if (.not. allocated(error)) then
+      check%singular = found%singular
+      check%everywhere = found%all - found%singular
+      check%contradiction = found%contradiction
+      check%refusal = found%contradiction
       call count_parts(model, check)
       call count_equations(system, check)
       call list_defaults(model, check)
-      call refuse_contradiction(model, system, state, dropped, contradiction)
-      if (allocated(contradiction)) then
-        check%contradiction = contradiction%message
-        check%refusal = contradiction%message
+      call explain_constraints(model, system, found%everywhere, check%everywhere, .false., &
+                               check%overconstrained)
+      call explain_constraints(model, system, found%here, check%singular, .true., check%only_here, &
+                               found%leads)
+      if (check%singular > 0 .and. check%refusal == "") then
+        call check_departure(model, system, state, refused)
+        if (allocated(refused)) check%refusal = refused%message
       end if
-      call explain_constraints(model, system, state, dropped, check, error)
-      if (.not. allocated(error)) call explain_motions(model, system, state, check, error)
+      if (allocated(found%beside) .and. begins_with_motion(model)) state = found%beside
+      call explain_motions(model, system, state, check, error)
     end if
     call system%free()
   end subroutine check_model
@@ -156,26 +167,27 @@ contains
     end do
   end subroutine list_defaults
 
-  subroutine explain_constraints(model, system, state, dropped, check, error)
+  subroutine explain_constraints(model, system, found, all, here, finding, leads)
     type(model_t), intent(in) :: model
     type(system_t), intent(in) :: system
-    type(state_t), intent(in) :: state
-    integer, intent(in) :: dropped(:)
-    type(check_t), intent(inout) :: check
-    type(error_t), allocatable, intent(out) :: error
-    type(dependence_t), allocatable :: found(:)
+    type(dependence_t), intent(in) :: found(:)
+    integer, intent(in) :: all
+    logical, intent(in) :: here            !< only where the model is drawn
+    type(finding_t), allocatable, intent(out) :: finding(:)
+    logical, intent(in), optional :: leads !< a motion leads away from there
     integer :: i, k
 
-    call find_dependences(model, system, state, dropped, found, error)
-    if (allocated(error)) return
-    deallocate (check%overconstrained)
-    allocate (check%overconstrained(size(found)))
+    allocate (finding(size(found)))
     do i = 1, size(found)
-      associate (f => check%overconstrained(i), d => found(i))
-        f%text = "overconstrained"//count_line(i, size(dropped))//": "// &
+      associate (f => finding(i), d => found(i))
+        f%text = "overconstrained"//count_line(i, all)//": "// &
                  dependence_sentence(model, system, d)
-        f%name = strain_name(model, system, d%dropped)
         f%card = release_card(model, system, d%release)
+        if (here) then
+          f%text = singular_sentence(model, system, d, leads)
+          f%card = ""
+        end if
+        f%name = strain_name(model, system, d%dropped)
         f%value = d%weight
         allocate (f%part(size(d%strain)), f%other(size(d%held)))
         do k = 1, size(d%strain)
@@ -218,7 +230,7 @@ contains
     if (check%mobile == 0 .or. check%refusal /= "") return
     check%refusal = refusal(model)
     if (check%refusal /= "") check%refusal = "the model has "// &
-      plural(check%mobile, "free motion")//", but "//check%refusal
+      plural(check%mobile, "free motion")//", but "//check%refusal//singular_cure(system)
   end subroutine explain_motions
 
   subroutine describe_motions(model, system, found, check)

@@ -23,6 +23,9 @@ module analysis_kinematic
   use generalized_alpha, only: flow_t
   use driven_motion, only: driven_t, new_driven, release_driven, find_undriven, find_motion, &
                            is_smooth
+  use driven_departure, only: depart
+  use singular_start, only: departure_t, find_departure
+  use singular_refusal, only: refuse_unclear
   use motion_instant, only: instant_t, remember, go_back
   use time_grid, only: time_grid_t, new_time_grid
   use motion_bridge, only: bridge, increment_between
@@ -73,7 +76,7 @@ contains
                     error)
     course%time = time
     course%level = level
-    if (.not. allocated(error)) call refuse_undriven(model, analysis, driven, level, error)
+    if (.not. allocated(error)) call take_up(model, analysis, driven, course, error)
     if (.not. allocated(error)) call march(model, analysis, driven, course, recorder, error)
     time = course%time
     level = course%level
@@ -116,8 +119,6 @@ contains
     type(time_grid_t) :: grid
     integer :: stop
 
-    call take_up(model, driven, course, error)
-    if (allocated(error)) return
     call open_account(driven%motion, course%account)
     grid = new_time_grid(analysis, course%time)
     course%record%time = grid%start
@@ -140,16 +141,29 @@ contains
     end do
   end subroutine march
 
-  !> The position at the start; it may be far from where the model stands.
-  subroutine take_up(model, driven, course, error)
+  !> The position at the start; it may be far from where the model stands, or singular.
+  subroutine take_up(model, analysis, driven, course, error)
     type(model_t), intent(in) :: model
+    type(analysis_t), intent(in) :: analysis
     type(driven_t), intent(inout) :: driven
     type(course_t), intent(inout) :: course
     type(error_t), allocatable, intent(out) :: error
     type(newton_outcome_t) :: outcome
+    type(departure_t) :: departure
 
     where (driven%motion%system%timed) course%level = course%time
-    call find_motion(driven, course%level, outcome, error)
+    call find_departure(model, driven%motion%system, driven%motion%iterate%state, course%level, &
+                        departure, error)
+    if (allocated(error)) return
+    if (departure%singular) then
+      call refuse_unclear(model, driven%motion%system, .true., &
+                          trim(analysis_names(analysis%kind)), departure, error)
+      if (.not. allocated(error)) call depart( &
+        driven, departure, course%time, course%level, outcome, error)
+    else
+      call refuse_undriven(model, analysis, driven, course%level, error)
+      if (.not. allocated(error)) call find_motion(driven, course%level, outcome, error)
+    end if
     if (allocated(error)) return
     course%record%iterations = outcome%last%iteration
     course%record%last = outcome%last

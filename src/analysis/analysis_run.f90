@@ -13,7 +13,8 @@ module analysis_run
   use system_build, only: build_system, find_system_pattern
   use system_assembly, only: iterate_t, new_iterate
   use start_assembly, only: assemble_start
-  use model_soundness, only: warn_of_redundant, refuse_free_motion, needs_structure
+  use model_soundness, only: warn_of_redundant, refuse_free_motion, needs_structure, &
+                             begins_with_motion
   use analysis_static, only: run_static
   use analysis_arc, only: run_arc
   use mode_results, only: modes_t
@@ -70,12 +71,14 @@ contains
     class(recorder_t), intent(inout) :: recorder
     type(error_t), allocatable, intent(out) :: error
     type(state_t) :: state
+    type(state_t), allocatable :: beside
 
     call check_memory(size(model%member), error)
     if (allocated(error)) return
     call build_system(model, system)
     call assemble_start(model, system, state, error)
-    if (.not. allocated(error)) call warn_of_redundant(model, system, state, recorder, error)
+    if (.not. allocated(error)) call warn_of_redundant(model, system, state, recorder, beside, &
+                                                         error)
     if (allocated(error)) return
     call find_system_pattern(system)
     call new_iterate(system, iterate)
@@ -83,7 +86,9 @@ contains
     call solver%prepare(system%equations(), system%pattern%row, system%pattern%column, &
                         system%pattern%symmetric, error)
     if (allocated(error) .or. .not. needs_structure(model)) return
+    if (allocated(beside) .and. begins_with_motion(model)) iterate%state = beside
     call refuse_free_motion(model, system, solver, iterate, error)
+    iterate%state = state
     if (.not. all_static(model)) return
     deallocate (system%pattern%row, system%pattern%column)  ! the solver has its own
   end subroutine set_up

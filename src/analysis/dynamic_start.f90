@@ -16,6 +16,7 @@ module dynamic_start
                                  held_entries, by_coordinate
   use start_assembly, only: assemble_model
   use start_velocity, only: find_velocities
+  use singular_refusal, only: leave_singular
   implicit none
   private
 
@@ -41,6 +42,8 @@ contains
       if (allocated(error)) return
       call find_velocities(model, motion%system, motion%iterate%state, level, &
                            motion%flow%velocity, error)
+      if (.not. allocated(error)) call leave_singular( &
+        model, motion%system, motion%iterate%state, level, motion%flow%velocity, error)
       if (allocated(error)) return
     end if
     call restart_motion(part_of_step*h, level, motion, error)

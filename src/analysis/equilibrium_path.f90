@@ -108,7 +108,8 @@ contains
       if (abs(iterate%strain(k) - iterate%target(k)) <= 1.0e-8_wp*system%length) cycle
       call fail(error, exit_solve, "the constraints contradict each other: "// &
                 strain_name(model, system, k)//", redundant at the start, is off by "// &
-                to_text(iterate%strain(k) - iterate%target(k), 3))
+                to_text(iterate%strain(k) - iterate%target(k), 3)//"; if the model is drawn in "// &
+                "a singular position, draw it a little off that")
       return
     end do
   end subroutine check_dropped

@@ -11,8 +11,8 @@ module model_sentences
   implicit none
   private
 
-  public :: dependence_sentence, contradiction_sentence, motion_sentence, release_card, listed, &
-            motion_name, node_list
+  public :: dependence_sentence, singular_sentence, contradiction_sentence, motion_sentence, &
+            release_card, listed, motion_name, node_list
 
   integer, parameter :: most_strains = 8, most_nodes = 6, most_releases = 4
 
@@ -26,6 +26,35 @@ contains
     type(dependence_t), intent(in) :: found
     character(len=:), allocatable :: sentence
 
+    sentence = partners_sentence(model, system, found)
+    if (found%release == 0) then
+      sentence = sentence//"; leave out one of them"
+    else
+      sentence = sentence//"; "//release_card(model, system, found%release)//" would remove it"
+    end if
+  end function dependence_sentence
+
+  !> "drawn in a singular position: element 3 mode 1 (elongation), element 5 mode 1 (elongation)
+  !> hold each other with FIX of node 1, but only there"
+  function singular_sentence(model, system, found, leads) result(sentence)
+    type(model_t), intent(in) :: model
+    type(system_t), intent(in) :: system
+    type(dependence_t), intent(in) :: found
+    logical, intent(in) :: leads           !< a motion leads away from there
+    character(len=:), allocatable :: sentence
+
+    sentence = "drawn in a singular position: "//partners_sentence(model, system, found)// &
+               ", but only there"
+    if (.not. leads) sentence = sentence//"; it yields to first order, and no motion leads away"
+  end function singular_sentence
+
+  !> "element 3 mode 2 (torsion), element 5 mode 6 (bending) hold each other with FIX of node 1"
+  function partners_sentence(model, system, found) result(sentence)
+    type(model_t), intent(in) :: model
+    type(system_t), intent(in) :: system
+    type(dependence_t), intent(in) :: found
+    character(len=:), allocatable :: sentence
+
     sentence = listed(strain_names(model, system, found%strain), most_strains, found%partners)
     if (found%partners == 1) then
       sentence = sentence//" is held already"
@@ -34,12 +63,7 @@ contains
       sentence = sentence//" hold each other"
       if (size(found%held) > 0) sentence = sentence//" with FIX of "//node_list(model, found%held)
     end if
-    if (found%release == 0) then
-      sentence = sentence//"; leave out one of them"
-    else
-      sentence = sentence//"; "//release_card(model, system, found%release)//" would remove it"
-    end if
-  end function dependence_sentence
+  end function partners_sentence
 
   !> "RLSE 3 2": the card that ends a redundancy; empty if there is none.
   function release_card(model, system, strain) result(card)

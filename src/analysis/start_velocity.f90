@@ -26,7 +26,7 @@ module start_velocity
   implicit none
   private
 
-  public :: find_velocities
+  public :: find_velocities, given_lacks
 
   !> R: stiffness and identity, each over its largest entry, against the largest mass.
   real(wp), parameter :: stiffness_part = 1.0e-6_wp, identity_part = 1.0e-10_wp
@@ -82,6 +82,29 @@ contains
     if (.not. allocated(error)) call check_given(model, problem, velocity, error)
     if (.not. allocated(error)) call check_constraints(model, problem, rate, velocity, error)
   end subroutine find_velocities
+
+  !> What velocities lack of those given for the start, each in units in which a motion as large as
+  !> the model counts 1.
+  subroutine given_lacks(model, system, rest, velocity, lack)
+    type(model_t), intent(in) :: model
+    type(system_t), intent(in) :: system
+    type(iterate_t), intent(in) :: rest     !< assembled
+    real(wp), intent(in) :: velocity(:)
+    real(wp), intent(out) :: lack(:)        !< by rate given
+    type(problem_t) :: problem
+    type(condition_t) :: condition
+    integer :: i, n
+
+    problem%system = system
+    problem%rest = rest
+    n = 0
+    do i = 1, size(model%start)
+      if (.not. model%start(i)%rate) cycle
+      call find_condition(model, model%start(i), problem, condition)
+      n = n + 1
+      lack(n) = dot_product(condition%factor, velocity(condition%coordinate)) - condition%value
+    end do
+  end subroutine given_lacks
 
   !> The matrix of M, R and C.
   subroutine new_problem(model, system, state, level, self)

@@ -159,7 +159,8 @@ contains
       keyword_t("STARTDX", "model", "nodes:nodes component:component rate:T^-1", "", &
         "gives a velocity of a node at the start of a motion in time; RX RY RZ are the "// &
         "components of its angular velocity. What is not given moves with the least kinetic "// &
-        "energy", "STARTDX 2 Z -3", "STARTDX", read_startdx), &
+        "energy. KINEMATIC and INVERSE use it to leave a singular position", "STARTDX 2 Z -3", &
+        "STARTDX", read_startdx), &
       keyword_t("STARTDE", "model", "elements:elements mode:mode rate:T^-1", "", &
         "gives the rate of a strain at the start of a motion in time", "STARTDE 3 2 0.1", &
         "STARTDE", read_startde)]

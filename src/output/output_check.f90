@@ -22,8 +22,9 @@ contains
     do i = 1, size(check%defaults)
       write (unit, "(a)") check%defaults(i)%s
     end do
-    call print_findings(unit, check%overconstrained, check%redundant, "redundant constraint")
+    call print_findings(unit, check%overconstrained, check%everywhere, "redundant constraint")
     call print_releases(unit, check%overconstrained)
+    call print_findings(unit, check%only_here, check%singular, "singular constraint")
     if (check%contradiction /= "") write (unit, "(a)") "contradiction: "//check%contradiction
     call print_findings(unit, check%motion, check%mobile, "free motion")
     if (check%mobile == 0) write (unit, "(a)") "nothing moves freely"
@@ -53,6 +54,7 @@ contains
     call line("  free", check%free)
     call line("constraint equations", check%constraints)
     call line("  redundant", check%redundant)
+    if (check%singular > 0) call line("  singular", check%singular)
     call line("degrees of freedom", check%freedoms)
     call line("  flexible", check%freedoms - check%mobile)
     call line("  free motions", check%mobile)
@@ -110,22 +112,15 @@ contains
     write (unit, "(a)") " ""coordinates"": {""all"": "//to_text(check%used)//", ""held"": "// &
       to_text(check%held)//", ""free"": "//to_text(check%free)//"},"
     write (unit, "(a)") " ""constraints"": {""all"": "//to_text(check%constraints)// &
-      ", ""redundant"": "//to_text(check%redundant)//"},"
+      ", ""redundant"": "//to_text(check%redundant)//", ""singular"": "// &
+      to_text(check%singular)//"},"
     write (unit, "(a)") " ""degrees_of_freedom"": {""all"": "//to_text(check%freedoms)// &
       ", ""flexible"": "//to_text(check%freedoms - check%mobile)//", ""free_motions"": "// &
       to_text(check%mobile)//"},"
     write (unit, "(a)") " ""defaults"": "//texts(check%defaults)//","
     write (unit, "(a)") " ""contradiction"": "//json_string(check%contradiction)//","
-    write (unit, "(a)") " ""overconstrained"": ["
-    do i = 1, size(check%overconstrained)
-      associate (f => check%overconstrained(i))
-        write (unit, "(a)") "  {""text"": "//json_string(f%text)//", ""redundant"": "// &
-          json_string(f%name)//", ""strains"": "//texts(f%part)//", ""weights"": "// &
-          values(f)//", ""fixed_nodes"": "//texts(f%other)//", ""release"": "// &
-          json_string(f%card)//"}"//trim(merge(",", " ", i < size(check%overconstrained)))
-      end associate
-    end do
-    write (unit, "(a)") " ],"
+    call print_constraints("overconstrained", check%overconstrained)
+    call print_constraints("singular", check%only_here)
     write (unit, "(a)") " ""motions"": ["
     do i = 1, size(check%motion)
       associate (f => check%motion(i))
@@ -136,6 +131,26 @@ contains
       end associate
     end do
     write (unit, "(a)") " ]}"
+
+  contains
+
+    subroutine print_constraints(key, finding)
+      character(len=*), intent(in) :: key
+      type(finding_t), intent(in) :: finding(:)
+      integer :: i
+
+      write (unit, "(a)") " "//json_string(key)//": ["
+      do i = 1, size(finding)
+        associate (f => finding(i))
+          write (unit, "(a)") "  {""text"": "//json_string(f%text)//", ""redundant"": "// &
+            json_string(f%name)//", ""strains"": "//texts(f%part)//", ""weights"": "// &
+            values(f)//", ""fixed_nodes"": "//texts(f%other)//", ""release"": "// &
+            json_string(f%card)//"}"//trim(merge(",", " ", i < size(finding)))
+        end associate
+      end do
+      write (unit, "(a)") " ],"
+    end subroutine print_constraints
+
   end subroutine print_check_json
 
   !> Numbers behind names, each with a comma in front.

@@ -110,9 +110,10 @@ contains
       end associate
     end do
     allocate (system%multiplier(system%first(size(system%first))))
-    allocate (system%dropped(size(system%multiplier)))
+    allocate (system%dropped(size(system%multiplier)), system%singular(size(system%multiplier)))
     system%multiplier = 0
     system%dropped = .false.
+    system%singular = .false.
   end subroutine number_strains
 
   !> An unknown for every coordinate that an element uses and nothing holds.

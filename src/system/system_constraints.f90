@@ -14,7 +14,7 @@ module system_constraints
   private
 
   public :: drop_redundant, free_motions, coordinate_scale
-  public :: scaled_jacobian, null_vector, is_rigid, resisted
+  public :: constraint_entries, scaled_jacobian, null_vector, is_rigid, resisted
 
   !> A constraint row depends on others if what is left of it is this small: round-off of sums of
   !> some ten products leaves 1e-15, rows that differ by design 1e-6 and more.

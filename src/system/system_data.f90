@@ -110,6 +110,8 @@ module system_data
     integer, allocatable :: jacobian(:)   !< by element: entries of Jacobians before its own
     integer, allocatable :: multiplier(:) !< by strain: number of its unknown; 0: none
     logical, allocatable :: dropped(:)    !< by strain: fixed, but follows from other constraints
+    !> By strain: fixed, and follows from other constraints only where the model starts.
+    logical, allocatable :: singular(:)
     real(wp), allocatable :: initial_stress(:)  !< by strain: at zero strain, of a law
     type(dead_load_t), allocatable :: load(:)
     integer, allocatable :: mass_node(:)  !< nodes with mass or inertia of their own

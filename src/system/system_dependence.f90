@@ -105,6 +105,7 @@ contains
     real(wp), allocatable :: y(:)
     logical, allocatable :: timed(:)
     integer :: p, at
+    logical :: at_speed
 
     exists = .false.
     if (size(dropped) == 0 .or. size(system%drive) == 0) return
@@ -116,8 +117,9 @@ contains
     do p = 1, size(model%pattern)
       if (allocated(error) .or. at > 0) exit
       call target_direction(system, level, p, first, second)
-      if (.not. any(abs(first) > 0)) first = second
-      if (any(abs(first) > 0)) call find_refused(system, rows, first, at, error)
+      at_speed = any(abs(first) > 0)
+      if (.not. at_speed) first = second
+      if (any(abs(first) > 0)) call find_refused(system, rows, first, at_speed, at, error)
     end do
     system%timed = timed
     exists = at > 0
@@ -240,11 +242,12 @@ contains
   end subroutine find_weights
 
   !> The first redundant row that does not have the rate its strain is to have, where the others
-  !> have theirs; 0: none.
-  subroutine find_refused(system, rows, rate, refused, error)
+  !> have theirs; 0: none. Singular rows are refused nothing but velocities: those may turn them.
+  subroutine find_refused(system, rows, rate, at_speed, refused, error)
     type(system_t), intent(in) :: system
     type(rows_t), intent(inout) :: rows
     real(wp), intent(in) :: rate(:)      !< by strain
+    logical, intent(in) :: at_speed      !< they are velocities, not accelerations from rest
     integer, intent(out) :: refused
     type(error_t), allocatable, intent(out) :: error
     real(wp) :: x(system%unknowns + rows%independent), demand(size(rows%strain)), largest
@@ -268,6 +271,7 @@ contains
     end do
     do k = rows%independent + 1, size(lack)
       if (abs(lack(k)) <= no_rate*largest) cycle
+      if (system%singular(rows%strain(k)) .and. .not. at_speed) cycle
       refused = k - rows%independent
       return
     end do

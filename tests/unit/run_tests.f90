@@ -26,6 +26,7 @@ program run_tests
   use test_dead_loads, only: run_dead_loads_tests
   use test_start_assembly, only: run_start_assembly_tests
   use test_start_velocity, only: run_start_velocity_tests
+  use test_singular_start, only: run_singular_start_tests
   use test_limits, only: run_limits_tests
   use test_path, only: run_path_tests
   use test_stability, only: run_stability_tests
@@ -88,6 +89,7 @@ program run_tests
   call run_dead_loads_tests()
   call run_start_assembly_tests()
   call run_start_velocity_tests()
+  call run_singular_start_tests()
   call run_limits_tests()
   call run_check_tests()
   call run_path_tests()
