@@ -95,17 +95,18 @@ contains
         "6, 8 at q", "RLSE 2 4 6", "RLSE", read_rlse), &
       keyword_t("ESTIFF", "model", "elements:elements EA:F GIt:F*L^2 EIy:F*L^2 EIz:F*L^2 "// &
         "cy:L^2 cz:L^2 EIw:F*L^4 | elements:elements EA:F GIt:F*L^2 EIy:F*L^2 EIz:F*L^2 "// &
-        "cy:L^2 cz:L^2 | elements:elements EA:F | elements:elements s1:F*L s2:F*L? s3:F*L? "// &
+        "cy:L^2? cz:L^2? | elements:elements EA:F | elements:elements s1:F*L s2:F*L? s3:F*L? "// &
         "s4:F*L? s5:F*L? s6:F*L?", "", &
         "gives stiffness to an element without SECTION, for the modes that DYNE makes "// &
-        "flexible: 7 values for a BEAMW, 6 for a BEAM, EA for a TRUSS, one for each mode of a "// &
-        "joint [F L; of a slide F L^-1]. cy = EIy/(G A k), likewise cz", &
+        "flexible: 7 values for a BEAMW, 4 to 6 for a BEAM, EA for a TRUSS, one for each mode "// &
+        "of a joint [F L; of a slide F L^-1]. cy = EIy/(G A k), likewise cz; without them a "// &
+        "BEAM is rigid in shear", &
         "ESTIFF 1 2e6 4e5 3e5 2e5 0.1 0.2 5e4", "ESTIFF", read_estiff), &
       keyword_t("EM", "model", "elements:elements rhoA:M*L^-1 rhoIp:M*L rhoIy:M*L rhoIz:M*L "// &
         "rhoIyz:M*L rhoIw:M*L^3 | elements:elements rhoA:M*L^-1 rhoIp:M*L rhoIy:M*L rhoIz:M*L "// &
-        "rhoIyz:M*L | elements:elements rhoA:M*L^-1", "", &
-        "gives mass to an element without SECTION: 6 values for a BEAMW, 5 for a BEAM, rhoA "// &
-        "for a TRUSS", "EM 1 7.85 0.2 0.15 0.05 0 0.01", "EM", read_em), &
+        "rhoIyz:M*L? | elements:elements rhoA:M*L^-1", "", &
+        "gives mass to an element without SECTION: 6 values for a BEAMW, 4 or 5 for a BEAM, "// &
+        "rhoA for a TRUSS", "EM 1 7.85 0.2 0.15 0.05 0 0.01", "EM", read_em), &
       keyword_t("EDAMP", "model", "elements:elements EA:F*T GIt:F*L^2*T EIy:F*L^2*T "// &
         "EIz:F*L^2*T EIw:F*L^4*T? | elements:elements EA:F*T | elements:elements d1:F*L*T "// &
         "d2:F*L*T? d3:F*L*T? d4:F*L*T? d5:F*L*T? d6:F*L*T?", "", &

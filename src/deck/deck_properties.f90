@@ -90,6 +90,7 @@ contains
     if (draft%beam(card)%joint == 0) then
       arity%most = values(k) + merge(0, 1, simple)
       arity%least = values(k) + merge(0, 1, simple .or. kinds(k) == record_damping)
+      if (simple .and. kinds(k) /= record_damping) arity%least = 4  ! what is left out is zero
       arity%values = trim(beam(k))
       if (.not. simple) arity%values = trim(beam(k))//trim(warping(k))
     else if (draft%model%joint(draft%beam(card)%joint)%kind == joint_truss) then
