@@ -76,7 +76,8 @@ contains
                     error)
     course%time = time
     course%level = level
-    if (.not. allocated(error)) call take_up(model, analysis, driven, course, error)
+    if (.not. allocated(error)) call take_up(model, analysis, driven, course, recorder, &
+                                              error)
     if (.not. allocated(error)) call march(model, analysis, driven, course, recorder, error)
     time = course%time
     level = course%level
@@ -142,14 +143,16 @@ contains
   end subroutine march
 
   !> The position at the start; it may be far from where the model stands, or singular.
-  subroutine take_up(model, analysis, driven, course, error)
+  subroutine take_up(model, analysis, driven, course, recorder, error)
     type(model_t), intent(in) :: model
     type(analysis_t), intent(in) :: analysis
     type(driven_t), intent(inout) :: driven
     type(course_t), intent(inout) :: course
+    class(recorder_t), intent(inout) :: recorder
     type(error_t), allocatable, intent(out) :: error
     type(newton_outcome_t) :: outcome
     type(departure_t) :: departure
+    logical :: finite
 
     where (driven%motion%system%timed) course%level = course%time
     call find_departure(model, driven%motion%system, driven%motion%iterate%state, course%level, &
@@ -159,7 +162,10 @@ contains
       call refuse_unclear(model, driven%motion%system, .true., &
                           trim(analysis_names(analysis%kind)), departure, error)
       if (.not. allocated(error)) call depart( &
-        driven, departure, course%time, course%level, outcome, error)
+        driven, departure, course%time, course%level, finite, outcome, error)
+      if (.not. (allocated(error) .or. finite)) call recorder%remark( &
+        "warning: forces would have to be infinite in the singular position of the start; those "// &
+        "recorded for it mean nothing")
     else
       call refuse_undriven(model, analysis, driven, course%level, error)
       if (.not. allocated(error)) call find_motion(driven, course%level, outcome, error)

@@ -21,17 +21,22 @@ module driven_departure
   !> Weights of values at 1, 2, ... 6 that give that at 0 of a polynomial of fifth degree.
   real(wp), parameter :: weight(6) = [6, -15, 20, -15, 6, -1]
 
+  !> The same of a polynomial of fourth degree. Forces for which both differ by more are not finite.
+  real(wp), parameter :: fewer(6) = [5, -10, 10, -5, 1, 0], unlike = 1.0e-2_wp
+
   !> The rates found and those of the way agree to this.
   real(wp), parameter :: on_the_way = 1.0e-3_wp
 
 contains
 
   !> Rates and stress resultants at the start, which stays; the rate by which ways differ is known.
-  subroutine depart(driven, departure, time, level, outcome, error)
+  !> `finite`: the stress resultants at the start are.
+  subroutine depart(driven, departure, time, level, finite, outcome, error)
     type(driven_t), intent(inout) :: driven
     type(departure_t), intent(in) :: departure
     real(wp), intent(in) :: time
     real(wp), intent(inout) :: level(:)    !< of the patterns, at the start
+    logical, intent(out) :: finite
     type(newton_outcome_t), intent(out) :: outcome
     type(error_t), allocatable, intent(out) :: error
     real(wp), dimension(size(departure%rate), 2) :: rate, known
@@ -42,7 +47,7 @@ contains
       known = 0
       known(:, order) = departure%rate
       rate = known
-      call extrapolate(driven, departure, time, level, rate, outcome, error)
+      call extrapolate(driven, departure, time, level, rate, finite, outcome, error)
       where (motion%system%timed) level = time
       motion%iterate%state = start
       if (allocated(error) .or. outcome%status /= newton_converged) return
@@ -64,15 +69,17 @@ contains
 
   !> Velocity and acceleration at the start from those a little later; stress resultants too, in
   !> `driven`.
-  subroutine extrapolate(driven, departure, time, level, rate, outcome, error)
+  subroutine extrapolate(driven, departure, time, level, rate, finite, outcome, error)
     type(driven_t), intent(inout) :: driven
     type(departure_t), intent(in) :: departure
     real(wp), intent(in) :: time
     real(wp), intent(inout) :: level(:)
     real(wp), intent(inout) :: rate(:, :)  !< first guess in, result out
+    logical, intent(out) :: finite
     type(newton_outcome_t), intent(out) :: outcome
     type(error_t), allocatable, intent(out) :: error
-    real(wp) :: stress(size(driven%motion%iterate%stress)), h
+    real(wp), dimension(size(driven%motion%iterate%stress)) :: stress, other
+    real(wp) :: h
     integer, allocatable :: undriven(:)
     integer :: k
 
@@ -83,6 +90,8 @@ contains
       motion%flow%acceleration = rate(:, 2)
       rate = 0
       stress = 0
+      other = 0
+      finite = .false.
       do k = 1, size(weight)
         call motion%iterate%state%move(h*motion%flow%velocity &
                                        + 0.5_wp*h**2*motion%flow%acceleration)
@@ -93,7 +102,9 @@ contains
         rate(:, 1) = rate(:, 1) + weight(k)*motion%flow%velocity
         rate(:, 2) = rate(:, 2) + weight(k)*motion%flow%acceleration
         stress = stress + weight(k)*motion%iterate%stress
+        other = other + fewer(k)*motion%iterate%stress
       end do
+      finite = maxval(abs(stress - other)) <= unlike*maxval(abs(stress))
       motion%iterate%stress = stress
     end associate
   end subroutine extrapolate

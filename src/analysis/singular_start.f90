@@ -46,7 +46,7 @@ module singular_start
   end type fork_t
 
   !> Smaller parts are round-off; roots closer than this to each other are one.
-  real(wp), parameter :: none = 1.0e-8_wp, same = 1.0e-6_wp
+  real(wp), parameter :: none = 1.0e-8_wp, same = 1.0e-6_wp, round_off = 1.0e-12_wp
 
   integer, parameter :: most_starts = 40, most_iterations = 40
 
@@ -293,7 +293,7 @@ contains
     end if
     if (departure%freedoms > 0) then
       call find_root(self, unit, p, found, error)
-      departure%ways = merge(2, 1, any(abs(p) > 0))
+      departure%ways = merge(1, 2, found .and. .not. any(abs(p) > 0))
       return
     end if
     do start = 1, most_starts
@@ -316,7 +316,7 @@ contains
   !> Newton for the quadratic equations and the velocities given, as least squares; `found` is a
   !> simple root.
   subroutine find_root(self, unit, p, found, error)
-    type(fork_t), intent(inout) :: self
+    type(fork_t), intent(in) :: self
     real(wp), intent(in) :: unit           !< size of velocities
     real(wp), intent(inout) :: p(:)
     logical, intent(out) :: found
@@ -324,32 +324,25 @@ contains
     real(wp), dimension(size(self%strain) + size(self%given)) :: f, size_of
     real(wp) :: j(size(f), size(p)), normal(size(p), size(p)), change(size(p))
     type(dense_symmetric_t) :: factors
-    integer :: iteration, i, s
+    integer :: iteration, i
 
-    s = size(self%strain)
     do iteration = 1, most_iterations
-      f(:s) = lacks(self, p)
-      f(s + 1:) = self%given + matmul(self%given_by, p)
-      do i = 1, s
-        j(i, :) = -2*matmul([1.0_wp, p], self%form(:, 2:, i))
-      end do
-      j(s + 1:, :) = self%given_by
+      call find_equations(self, p, f, j)
       size_of = 1
-      size_of(:s) = maxval(abs(j(:s, :)), 2)
-      found = all(abs(f(:s)) <= 1.0e-12_wp*size_of(:s)*(unit + maxval(abs(p)))) .and. &
-              all(abs(f(s + 1:)) <= none*(unit + maxval(abs(p))))
-      if (found) found = all(size_of(:s) > none*unit*self%at%system%length)
+      associate (s => size(self%strain))
+        size_of(:s) = maxval(abs(j(:s, :)), 2)
+        found = all(abs(f(:s)) <= round_off*size_of(:s)*(unit + maxval(abs(p)))) .and. &
+                all(abs(f(s + 1:)) <= none*(unit + maxval(abs(p)))) .and. &
+                all(size_of(:s) > none*unit*self%at%system%length)
+      end associate
       if (found) return
       size_of = max(size_of, unit*none)
-      f = f/size_of
-      do i = 1, size(p)
-        j(:, i) = j(:, i)/size_of
-      end do
+      j = j/spread(size_of, 2, size(p))
       normal = matmul(transpose(j), j)
       do i = 1, size(p)
         normal(i, i) = normal(i, i) + none**2
       end do
-      change = -matmul(transpose(j), f)
+      change = -matmul(f/size_of, j)
       call factors%factorize(normal, error)
       if (.not. allocated(error)) call factors%solve(change, error)
       if (allocated(error)) return
@@ -358,5 +351,21 @@ contains
     end do
     found = .false.
   end subroutine find_root
+
+  !> What the equations lack for velocities w + N p, and the derivatives to p.
+  pure subroutine find_equations(self, p, f, j)
+    type(fork_t), intent(in) :: self
+    real(wp), intent(in) :: p(:)
+    real(wp), intent(out) :: f(:), j(:, :)
+    integer :: i, s
+
+    s = size(self%strain)
+    f(:s) = lacks(self, p)
+    f(s + 1:) = self%given + matmul(self%given_by, p)
+    do i = 1, s
+      j(i, :) = -2*matmul([1.0_wp, p], self%form(:, 2:, i))
+    end do
+    j(s + 1:, :) = self%given_by
+  end subroutine find_equations
 
 end module singular_start

@@ -21,6 +21,7 @@ contains
   subroutine run_singular_start_tests()
     call run("singular start: flat parallelogram, the coupler stays parallel", parallelogram)
     call run("singular start: flat parallelogram, crossed", crossed)
+    call run("singular start: forces that are not finite", weighed)
     call run("singular start: the drive alone decides for a rhombus", rhombus)
     call run("singular start: from rest", from_rest)
     call run("singular start: two parallelograms with six constraints too many", double)
@@ -55,6 +56,7 @@ contains
     integer :: i
 
     call follow("given", memory, no_settings, 101)
+    call expect(size(memory%remarks) == 1, "forces are finite")
     do i = 1, memory%steps
       associate (now => memory%results(i), angle => w*0.01_wp*(i - 1))
         call expect_close(now%joint_strain(1, [1, 2, 4]), [angle, -angle, angle], 1.0e-11_wp, &
@@ -66,6 +68,21 @@ contains
       end associate
     end do
   end subroutine parallelogram
+
+  !> Its weight across the bars would need an infinite force in line; the angles do not mind.
+  subroutine weighed()
+    type(memory_t) :: memory
+    integer :: i
+
+    call follow("weighed", memory, no_settings, 101)
+    call expect(size(memory%remarks) == 2, "a warning besides that of the position")
+    if (size(memory%remarks) == 2) call expect(index(memory%remarks(2)%s, "infinite") > 0, &
+                                               memory%remarks(2)%s)
+    do i = 1, memory%steps
+      call expect_close(memory%results(i)%joint_strain(1, 4), w*0.01_wp*(i - 1), 1.0e-11_wp, &
+                        "rocker")
+    end do
+  end subroutine weighed
 
   !> Closed form of the crossed linkage: tan(rocker/2) = -(b + a)/(b - a) tan(crank/2).
   subroutine crossed()
