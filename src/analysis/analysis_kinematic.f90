@@ -164,8 +164,8 @@ contains
       if (.not. allocated(error)) call depart( &
         driven, departure, course%time, course%level, finite, outcome, error)
       if (.not. (allocated(error) .or. finite)) call recorder%remark( &
-        "warning: forces would have to be infinite in the singular position of the start; those "// &
-        "recorded for it mean nothing")
+        "warning: forces would have to be infinite in the singular position of the start; "// &
+        "those recorded for it mean nothing")
     else
       call refuse_undriven(model, analysis, driven, course%level, error)
       if (.not. allocated(error)) call find_motion(driven, course%level, outcome, error)

@@ -1,4 +1,4 @@
-!> Motions that start in a singular position, where the program cannot always know which way they go.
+!> Motions that start in a singular position: the program cannot always know which way they go.
 module singular_refusal
   use kinds, only: wp
   use errors, only: error_t, fail, exit_deck
