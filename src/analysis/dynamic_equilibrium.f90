@@ -272,8 +272,8 @@ contains
   end subroutine assemble_motion
 
   !> What the increment `aside`, of which the rates know nothing, lacks to close the gap of the
-  !> places that the one of the velocities leaves: S aside + C'nu = 0. With a `fresh` matrix all of it is
-  !> found anew: a sum would keep what matrices far from the solution made of the gaps there.
+  !> places that the one of the velocities leaves: S aside + C'nu = 0. With a `fresh` matrix all of
+  !> it is found anew: a sum would keep what matrices far from the solution made of the gaps there.
   subroutine step_aside(self, fresh, aside, more, error)
     type(dynamics_t), intent(inout) :: self
     logical, intent(in) :: fresh
