@@ -20,6 +20,7 @@ module dynamic_equilibrium
   use system_dynamics, only: shares_t, add_inertia, inertia_forces
   use system_inertia, only: masses_t
   use system_motion, only: target_rates
+  use system_rates, only: strain_rates
   use generalized_alpha, only: scheme_t, flow_t, predict, correct, inverse_tangent
   use newton_method, only: newton_outcome_t, newton_converged, newton_slow, newton_diverged, &
                            newton_distorted
@@ -28,12 +29,16 @@ module dynamic_equilibrium
 
   public :: dynamics_t, new_dynamics, take_step, release_dynamics
   public :: assemble_motion, set_shares, correct_velocity, held_entries, by_coordinate
+  public :: by_unknown, inertia_of
 
   !> Fixed strains are on their targets to this part of the model's length.
   real(wp), parameter :: constraint_tolerance = 1.0e-12_wp
 
   !> An iteration that reduces the increment less than this asks for new factors.
   real(wp), parameter :: slow = 0.1_wp
+
+  !> Behind a larger one Newton is on its way still, and the places alone lead it.
+  real(wp), parameter :: near = 1.0e-2_wp
 
   !> An increment this large, in lengths of the model or radians, is no solution.
   real(wp), parameter :: far = 10.0_wp
@@ -111,9 +116,11 @@ contains
     type(newton_outcome_t), intent(out) :: outcome
     type(error_t), allocatable, intent(out) :: error
     type(flow_t) :: next
-    real(wp) :: change(size(increment)), largest, before, left
+    real(wp) :: change(size(increment))
+    real(wp), dimension(self%system%equations()) :: aside, more
+    real(wp) :: largest, before, left
     real(wp) :: unused(size(self%demand))
-    logical :: fresh
+    logical :: fresh, rough
 
     next = self%flow
     call predict(self%scheme, h, self%flow, next, increment)
@@ -123,7 +130,9 @@ contains
     call set_shares(self, h)
     if (self%stabilised) call target_rates(self%system, level, self%demand, unused)
     fresh = .true.
+    rough = .false.
     before = huge(before)
+    aside = 0
     do
       outcome%last%iteration = outcome%last%iteration + 1
       self%iterate%keeps_matrix = .not. fresh
@@ -136,9 +145,12 @@ contains
       end if
       if (fresh) call self%solver%factorize(self%iterate%values, error)
       if (allocated(error)) return
-      call improve(self, h, increment, next, change, error)
+      more = 0
+      if (self%stabilised .and. .not. rough) call step_aside(self, fresh, aside, more, error)
       if (allocated(error)) return
-      largest = maxval(abs(change)/self%scale)
+      call improve(self, h, self%stabilised .and. .not. rough, more, increment, next, change, error)
+      if (allocated(error)) return
+      largest = maxval(max(abs(change), abs(by_coordinate(self%system, more)))/self%scale)
       outcome%last%increment = largest
       if (.not. ieee_is_finite(largest) .or. largest > far) then
         outcome%status = newton_diverged
@@ -148,8 +160,10 @@ contains
       if (before < huge(before)) left = largest*min(1.0_wp, largest/before)
       fresh = largest > slow*before
       before = largest
-      if (left <= self%tolerance .and. (outcome%last%constraint <= constraint_tolerance .or. &
-                                        outcome%last%iteration > 2)) exit
+      if (left <= self%tolerance .and. .not. rough .and. &
+          (outcome%last%constraint <= constraint_tolerance .or. &
+           outcome%last%iteration > 2)) exit
+      rough = self%stabilised .and. largest > near
       if (outcome%last%iteration < self%iterations) cycle
       outcome%status = newton_slow
       return
@@ -257,37 +271,84 @@ contains
                      self%iterate%values)
   end subroutine assemble_motion
 
-  !> One Newton increment. Stabilised, the increment that the rates know closes the gap of the
-  !> velocities; what it leaves of that of the places is closed aside.
-  subroutine improve(self, h, increment, next, change, error)
+  !> What the increment `aside`, of which the rates know nothing, lacks to close the gap of the
+  !> places that the one of the velocities leaves: S aside + C'nu = 0. With a `fresh` matrix all of
+  !> it is found anew: a sum would keep what matrices far from the solution made of the gaps there.
+  subroutine step_aside(self, fresh, aside, more, error)
+    type(dynamics_t), intent(inout) :: self
+    logical, intent(in) :: fresh
+    real(wp), intent(inout) :: aside(:)    !< of the step, by unknown, of rotations spins; and nu
+    real(wp), intent(out) :: more(:)       !< what it gains
+    type(error_t), allocatable, intent(out) :: error
+    real(wp), dimension(size(self%demand)) :: lack, closed
+
+    lack = self%iterate%target - self%iterate%strain &
+           - (self%demand - self%iterate%rate)/self%shares%velocity
+    if (fresh) then
+      call strain_rates(self%system, self%iterate, by_coordinate(self%system, aside), closed)
+      lack = lack + closed
+    end if
+    more = held_entries(self%system, lack)
+    call self%solver%solve(more, error)
+    if (allocated(error)) return
+    if (fresh) more = more - aside
+    aside = aside + more
+  end subroutine step_aside
+
+  !> One Newton increment, `more` of which changes no rates. With `both` the rest closes the gap of
+  !> the velocities, else that of the places.
+  subroutine improve(self, h, both, more, increment, next, change, error)
     type(dynamics_t), intent(inout) :: self
     real(wp), intent(in) :: h
+    logical, intent(in) :: both
+    real(wp), intent(in) :: more(:)        !< of the increment aside
     real(wp), intent(inout) :: increment(:)
     type(flow_t), intent(inout) :: next
     real(wp), intent(out) :: change(:)
     type(error_t), allocatable, intent(out) :: error
-    real(wp), dimension(self%system%equations()) :: solution, rest
-    real(wp) :: aside(size(change))
+    real(wp) :: solution(size(more)), aside(size(change))
 
     change = 0
-    aside = 0
+    aside = by_coordinate(self%system, more)
     solution = right_hand_side(self%system, self%iterate)
-    if (self%stabilised) then
-      rest = held_entries(self%system, self%iterate%target - self%iterate%strain &
-                          - (self%demand - self%iterate%rate)/self%shares%velocity)
-      solution = solution - rest
-      call self%solver%solve(rest, error)
-      if (allocated(error)) return
-      rest(self%system%unknowns + 1:) = 0
-      aside = by_coordinate(self%system, rest)
-      call turn_spins(self, aside)
+    if (both) then
+      solution(self%system%unknowns + 1:) = 0
+      solution = solution + inertia_of(self, aside) + held_entries(self%system, &
+                   (self%demand - self%iterate%rate)/self%shares%velocity)
     end if
     call self%solver%solve(solution, error)
     if (allocated(error)) return
-    if (self%stabilised) solution = solution + rest
+    solution = solution + more
     call advance(self%system, solution, 1.0_wp, self%iterate, change)
+    call turn_spins(self, aside)
     call correct(self%scheme, self%system%nodes, h, change, aside, increment, next)
   end subroutine improve
+
+  !> Mass times the accelerations that go with a motion, as right-hand side.
+  pure function inertia_of(self, motion) result(b)
+    type(dynamics_t), intent(in) :: self
+    real(wp), intent(in) :: motion(:)      !< by coordinate
+    real(wp) :: b(self%system%equations())
+    real(wp), dimension(size(motion)) :: still, force
+
+    still = 0
+    call inertia_forces(self%masses, self%iterate%state, still, self%shares%acceleration*motion, &
+                        force)
+    b = by_unknown(self%system, force)
+  end function inertia_of
+
+  !> A right-hand side of what acts on coordinates, zero elsewhere.
+  pure function by_unknown(system, x) result(b)
+    type(system_t), intent(in) :: system
+    real(wp), intent(in) :: x(:)           !< by coordinate
+    real(wp) :: b(system%equations())
+    integer :: k
+
+    b = 0
+    do k = 1, size(x)
+      if (system%unknown(k) > 0) b(system%unknown(k)) = x(k)
+    end do
+  end function by_unknown
 
   !> Spins as changes of the step's rotation vectors, in place.
   pure subroutine turn_spins(self, motion)

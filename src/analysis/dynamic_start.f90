@@ -9,11 +9,11 @@ module dynamic_start
   use system_data, only: system_t
   use system_assembly, only: iterate_t, right_hand_side
   use system_motion, only: target_rates
-  use system_rates, only: strain_rates, convective_rates
+  use system_rates, only: strain_rates, convective_rates, held_forces
   use system_inertia, only: find_massive
   use generalized_alpha, only: flow_t
-  use dynamic_equilibrium, only: dynamics_t, assemble_motion, set_shares, correct_velocity, &
-                                 held_entries, by_coordinate
+  use dynamic_equilibrium, only: dynamics_t, assemble_motion, set_shares, held_entries, &
+                                 by_coordinate, by_unknown, inertia_of
   use start_assembly, only: assemble_model
   use start_velocity, only: find_velocities
   use singular_refusal, only: leave_singular
@@ -57,8 +57,8 @@ contains
     real(wp), intent(in) :: level(:)
     type(dynamics_t), intent(inout) :: motion
     type(error_t), allocatable, intent(out) :: error
-    real(wp) :: solution(motion%system%equations()), share, demand(size(motion%iterate%strain))
-    logical :: massive(motion%system%coordinates)
+    real(wp) :: share, demand(size(motion%iterate%strain))
+    real(wp), dimension(motion%system%equations()) :: b, solution
     integer :: k
 
     motion%flow%acceleration = 0
@@ -70,18 +70,20 @@ contains
     if (allocated(error)) return
     if (motion%system%multipliers > 0) then
       call target_rates(motion%system, level, motion%demand, demand)
-      call correct_velocity(motion, error)
+      b = held_entries(motion%system, motion%demand - motion%iterate%rate)
+      call solve_by_mass(motion, b, solution, error)
       if (allocated(error)) return
+      motion%flow%velocity = motion%flow%velocity + by_coordinate(motion%system, solution)
       call assemble_here(motion, level, keeps_matrix=.true.)
     end if
     call constraint_accelerations(motion%system, motion%iterate, level, demand)
-    solution = right_hand_side(motion%system, motion%iterate)
-    solution(motion%system%unknowns + 1:) = 0
-    solution = solution + held_entries(motion%system, demand/share)
-    call motion%solver%solve(solution, error)
+    b = right_hand_side(motion%system, motion%iterate)
+    b(motion%system%unknowns + 1:) = 0
+    call solve_by_mass(motion, b + held_entries(motion%system, demand/share), solution, error)
     if (allocated(error)) return
-    call find_massive(motion%masses, motion%iterate%state, massive)
-    motion%flow%acceleration = merge(share*by_coordinate(motion%system, solution), 0.0_wp, massive)
+    motion%flow%acceleration = share*by_coordinate(motion%system, solution)
+    call guide_massless(motion, demand, motion%flow%acceleration, error)
+    if (allocated(error)) return
     do k = 1, size(demand)
       associate (at => motion%system%multiplier(k))
         if (at > 0) motion%iterate%stress(k) = solution(at)
@@ -91,6 +93,26 @@ contains
     motion%flow%step = 0
     call assemble_here(motion, level)
   end subroutine restart_motion
+
+  !> Solve [M, C'; C, 0] x = b, M times the share of accelerations, by the factors of a very short
+  !> step: of what its damping and stiffness have added, a part of the order of h, a second solution
+  !> leaves the square.
+  subroutine solve_by_mass(motion, b, x, error)
+    type(dynamics_t), intent(inout) :: motion
+    real(wp), intent(in) :: b(:)
+    real(wp), intent(out) :: x(:)
+    type(error_t), allocatable, intent(out) :: error
+    real(wp) :: rest(size(b)), held(motion%system%coordinates)
+
+    x = b
+    call motion%solver%solve(x, error)
+    if (allocated(error)) return
+    call held_forces(motion%system, motion%iterate, x, held)
+    rest = b - inertia_of(motion, by_coordinate(motion%system, x)) - by_unknown(motion%system, held)
+    rest(motion%system%unknowns + 1:) = 0
+    call motion%solver%solve(rest, error)
+    x = x + rest
+  end subroutine solve_by_mass
 
   !> Give the scheme's own acceleration, and unless stabilised the velocities across constraints,
   !> the values that steps of length h keep: a = v' + lead h v'', and the part of
@@ -105,7 +127,7 @@ contains
     type(error_t), allocatable, intent(out) :: error
     real(wp) :: jerk(motion%system%coordinates), missed(size(jerk)), rate(size(motion%demand))
     real(wp) :: solution(motion%system%equations())
-    logical :: massive(size(jerk))
+    integer :: k
 
     if (motion%system%multipliers == 0) return
     call set_shares(motion, h)
@@ -113,11 +135,17 @@ contains
     call motion%solver%factorize(motion%iterate%values, error)
     if (allocated(error)) return
     call unbalance_rate(part_of_step*h, level, motion, solution)
+    rate = 0
+    do k = 1, size(rate)
+      associate (at => motion%system%multiplier(k))
+        if (at > 0) rate(k) = motion%shares%acceleration*solution(at)
+      end associate
+    end do
     call motion%solver%solve(solution, error)
     if (allocated(error)) return
-    call find_massive(motion%masses, motion%iterate%state, massive)
-    jerk = motion%scheme%acceleration_share(h)*by_coordinate(motion%system, solution)
-    jerk = merge(jerk, 0.0_wp, massive)
+    jerk = motion%shares%acceleration*by_coordinate(motion%system, solution)
+    call guide_massless(motion, rate, jerk, error)
+    if (allocated(error)) return
     motion%flow%pseudo = motion%flow%acceleration + motion%scheme%lead()*h*jerk
     motion%flow%step = h
     if (motion%stabilised) return
@@ -128,6 +156,28 @@ contains
     if (allocated(error)) return
     motion%flow%velocity = motion%flow%velocity + by_coordinate(motion%system, solution)
   end subroutine settle_motion
+
+  !> Of coordinates without mass, whose accelerations (or changes of these) the equations of motion
+  !> leave open: those that held strains ask for, D a = demand, and else none.
+  subroutine guide_massless(motion, demand, acceleration, error)
+    type(dynamics_t), intent(inout) :: motion
+    real(wp), intent(in) :: demand(:)      !< by strain
+    real(wp), intent(inout) :: acceleration(:)
+    type(error_t), allocatable, intent(out) :: error
+    real(wp) :: solution(motion%system%equations()), rate(size(demand))
+    logical :: massive(size(acceleration))
+
+    call find_massive(motion%masses, motion%iterate%state, massive)
+    acceleration = merge(acceleration, 0.0_wp, massive)
+    if (all(massive .or. motion%system%unknown == 0)) return
+    call strain_rates(motion%system, motion%iterate, acceleration, rate)
+    solution = held_entries(motion%system, (demand - rate)/motion%shares%acceleration)
+    call motion%solver%solve(solution, error)
+    if (allocated(error)) return
+    where (.not. massive)
+      acceleration = motion%shares%acceleration*by_coordinate(motion%system, solution)
+    end where
+  end subroutine guide_massless
 
   !> How fast the accelerations and multipliers of now fail to balance: rate of
   !> f - h - D'sigma - C'mu - M a, and of what held strains' second rates lack, as right-hand side.

@@ -8,7 +8,7 @@ module system_rates
   implicit none
   private
 
-  public :: strain_rates, convective_rates, strain_forces
+  public :: strain_rates, convective_rates, strain_forces, held_forces
 
 contains
 
@@ -106,5 +106,29 @@ contains
       end associate
     end do
   end subroutine add_forces
+
+  !> C'mu, by coordinate: the forces of the multipliers of a solution; of an assembled iterate.
+  pure subroutine held_forces(system, iterate, solution, force)
+    type(system_t), intent(in) :: system
+    type(iterate_t), intent(in) :: iterate
+    real(wp), intent(in) :: solution(:)
+    real(wp), intent(out) :: force(:)
+    integer :: e, i, j
+
+    force = 0
+    do e = 1, size(system%element)
+      associate (element => system%element(e)%e, first => system%first(e))
+        do i = 1, element%strains
+          if (system%multiplier(first + i) == 0) cycle
+          do j = 1, element%coordinates
+            associate (at => element%coordinate(j))
+              force(at) = force(at) + solution(system%multiplier(first + i)) &
+                          *iterate%jacobian(system%jacobian(e) + (j - 1)*element%strains + i)
+            end associate
+          end do
+        end do
+      end associate
+    end do
+  end subroutine held_forces
 
 end module system_rates

@@ -23,6 +23,9 @@ contains
     call run("multipliers: torque of a measured motion, as SPLINE and as TABLE", measured)
     call run("multipliers: velocities satisfy the constraints", exact_velocities)
     call run("multipliers: no growth without numerical damping", no_growth)
+    call run("multipliers: order 2 with hinges of bars without mass, in space", gimbal)
+    call run("multipliers: a blow passes by a damper", damped_blow)
+    call run("multipliers: stiff arms in long steps", stiff_arms)
     call run("multipliers: misaligned four-bar linkage as INVERSE finds it (FLX-08)", misaligned)
   end subroutine run_transient_multipliers_tests
 
@@ -234,6 +237,83 @@ contains
     call expect(error(2) < 1.1_wp*error(1), "no growth")
     call expect(error(1) < 3*g*0.01_wp**2*3*g, "of the order of h**2")
   end subroutine no_growth
+
+  !> The support's force as INVERSE finds it; with the recorded acceleration it balances the weight,
+  !> but for the increments that Newton leaves, 1e-10 of the length.
+  subroutine gimbal()
+    real(wp), parameter :: radius(2) = [0.5_wp, 0.0_wp], mass = 1.5_wp, h = 0.01_wp
+    type(motion_t) :: motion, driven
+    type(model_t) :: model
+    real(wp) :: error(2), left(3)
+    integer :: i, k, r, form
+
+    call follow("../kinematic/gimbal", driven, model, [setting("h", h/2)])
+    do form = 1, 2
+      do r = 1, 2
+        error = 0
+        do k = 1, 2
+          call follow("gimbal", motion, model, [setting("h", h/k), setting("rho", radius(r)), &
+                                                setting("form", forms(form))])
+          if (motion%steps < 2 .or. driven%steps < 2) return
+          do i = 2, motion%steps
+            associate (now => motion%results(i), &
+                       force => driven%results(1 + (3 - k)*(i - 1))%reaction(:3, 1))
+              error(k) = max(error(k), maxval(abs(now%reaction(:3, 1) - force)))
+              left = now%reaction(:3, 1) - mass*(now%acceleration(:3, 3) + [0.0_wp, 0.0_wp, g])
+              if (k == 2) call expect_close(left, 0*left, mass*1.0e-10_wp/(h/2)**2, "balance")
+            end associate
+          end do
+        end do
+        call expect_close(observed_order(error(1:1), error(2:2)), 2.0_wp, 0.1_wp, &
+                          "order, STABILISED "//trim(forms(form)))
+      end do
+    end do
+  end subroutine gimbal
+
+  !> What is at rest at the far end of a hinged bar stays so when the near end is struck, however
+  !> strong the damper: it takes a part h c/(m r**2)/100 of the blow in the matrix of the start, of
+  !> which a second solution leaves the square.
+  subroutine damped_blow()
+    real(wp), parameter :: c = 5, mass(2) = [2.0_wp, 1.5_wp], arm(2) = [1.0_wp, 0.6_wp]
+    real(wp), parameter :: rate = 2.5_wp, h = 0.01_wp
+    type(motion_t) :: motion
+    type(model_t) :: model
+    real(wp) :: part
+
+    call follow("damped_blow", motion, model, [setting("h", h)])
+    if (motion%steps /= 21) return
+    part = 0.01_wp*h*c*(1/arm(1) + 1/arm(2))/(mass(2)*arm(2))
+    associate (r => motion%results(11))
+      call expect_close(r%velocity(2, 2), rate*arm(1), 1.0e-12_wp, "what is struck")
+      call expect_close(r%velocity(2, 3), 0.0_wp, 4*part**2*rate, "what is not")
+      call expect_close(r%energy(1), 0.5_wp*mass(1)*(rate*arm(1))**2, 4*part**2*rate**2, "energy")
+      call expect_close(r%energy(4), r%energy(1), 1.0e-12_wp, "which is the drive's work")
+    end associate
+  end subroutine damped_blow
+
+  !> The law of energy holds as well as in the classical form, and strains are those of the motion.
+  subroutine stiff_arms()
+    type(motion_t) :: motion
+    type(model_t) :: model
+    real(wp) :: kinetic, missing(2), strain(2)
+    integer :: i, form
+
+    missing = 0
+    strain = 0
+    do form = 1, 2
+      call follow("stiff_arm", motion, model, [setting("form", forms(form))])
+      call expect(motion%steps == 51, "runs, STABILISED "//trim(forms(form)))
+      if (motion%steps /= 51) return
+      kinetic = 0
+      do i = 1, motion%steps
+        kinetic = max(kinetic, motion%results(i)%energy(1))
+        strain(form) = max(strain(form), motion%results(i)%energy(2))
+        missing(form) = max(missing(form), abs(motion%results(i)%energy(6)))
+      end do
+      call expect(missing(form) < 1.0e-3_wp*kinetic, "energy")
+    end do
+    call expect_close(strain(1)/strain(2), 1.0_wp, 0.05_wp, "energy of the strains")
+  end subroutine stiff_arms
 
   !> At 0.6 rad/s inertia forces are small, and what a run in time finds is what the driven motion
   !> has without integration; in line the linkage stays in its plane.
