@@ -77,9 +77,8 @@ contains
 
     balanced = .true.
     do i = 1, size(s)
-      if (.not. largest(i) > 0.0_wp) cycle
+      if (.not. largest(i) > 0.0_wp .or. (largest(i) >= 0.25_wp .and. largest(i) < 2.0_wp)) cycle
       half = exponent(largest(i))/2
-      if (half == 0) cycle
       balanced = .false.
       s(i) = scale(s(i), -half)
     end do

@@ -1,5 +1,7 @@
 !> Solve a sparse linear system, symmetric indefinite or general, regular or singular:
-!> equilibration, then a dense factorization for few unknowns, MUMPS for many.
+!> equilibration, then a dense factorization for few unknowns, MUMPS for many; of general matrices
+!> one in a band where the unknowns have an order that makes it narrow, as in chains of beams. Should
+!> the matrix prove singular there, the other two look at it again: they name null pivots.
 !>
 !> Call `prepare` once per pattern, `factorize` once per matrix, `solve` once per right-hand side,
 !> `free` at the end. A singular matrix is no error: see `null_pivots`.
@@ -11,16 +13,20 @@ module linalg_solver
   use linalg_scaling, only: scale_symmetric, scale_general
   use linalg_dense, only: dense_symmetric_t, dense_general_t
   use linalg_sparse, only: sparse_t
+  use linalg_band, only: band_t
   implicit none
   private
 
   integer, parameter, public :: default_dense_limit = 150  !< unknowns up to which dense is faster
+  integer, parameter, public :: default_band_limit = 40    !< width up to which a band is faster
 
-  integer, parameter :: dense_symmetric = 1, dense_general = 2, sparse = 3
+  integer, parameter :: dense_symmetric = 1, dense_general = 2, sparse = 3, banded = 4
 
   type, public :: solver_t
     private
-    integer :: method = 0                        !< one of the three above
+    integer :: method = 0                        !< one of the four above
+    integer :: other = 0                         !< the one that takes singular matrices
+    logical :: has_room = .false.                !< and is prepared
     logical :: symmetric = .false.
     logical :: factorized = .false.
     integer, allocatable :: row(:), column(:)    !< pattern
@@ -30,6 +36,7 @@ module linalg_solver
     type(dense_symmetric_t) :: ldl
     type(dense_general_t) :: lu
     type(sparse_t) :: mumps
+    type(band_t) :: band
   contains
     procedure :: prepare
     procedure :: factorize
@@ -45,18 +52,21 @@ module linalg_solver
 contains
 
   !> Set the pattern: entry k is in `row(k)`, `column(k)`; no place twice.
-  subroutine prepare(self, n, row, column, symmetric, error, dense_limit)
+  subroutine prepare(self, n, row, column, symmetric, error, dense_limit, band_limit)
     class(solver_t), intent(inout) :: self
     integer, intent(in) :: n                       !< number of unknowns
     integer, intent(in) :: row(:), column(:)       !< entries; if symmetric with row >= column only
     logical, intent(in) :: symmetric
     type(error_t), allocatable, intent(out) :: error
     integer, intent(in), optional :: dense_limit   !< most unknowns for a dense factorization
-    integer :: limit
+    integer, intent(in), optional :: band_limit    !< largest width of a band, see `linalg_order`
+    integer :: most, widest
 
     call self%free()
-    limit = default_dense_limit
-    if (present(dense_limit)) limit = dense_limit
+    most = default_dense_limit
+    if (present(dense_limit)) most = dense_limit
+    widest = min(default_band_limit, n/4)
+    if (present(band_limit)) widest = band_limit
     if (size(row) /= size(column) .or. any(min(row, column) < 1 .or. max(row, column) > n)) then
       call fail(error, exit_solve, "solver: entries outside a matrix of "//to_text(n)//" unknowns")
       return
@@ -67,14 +77,30 @@ contains
     allocate (self%scaled(size(row)), self%left(n), self%right(merge(0, n, symmetric)))
     self%left = 1.0_wp
     self%right = 1.0_wp
-    if (n <= limit .or. size(row) == 0) then
-      self%method = merge(dense_symmetric, dense_general, symmetric)
-      allocate (self%matrix(n, n))
-    else
-      self%method = sparse
-      call self%mumps%prepare(n, self%row, self%column, symmetric, error)
+    self%other = sparse
+    if (n <= most .or. size(row) == 0) self%other = merge(dense_symmetric, dense_general, symmetric)
+    self%method = self%other
+    if (.not. symmetric .and. size(row) > 0) then
+      call self%band%prepare(n, self%row, self%column, widest)
+      if (self%band%ready) self%method = banded
     end if
+    if (self%method /= banded) call make_room(self, error)
   end subroutine prepare
+
+  !> Prepare the method that also takes singular matrices.
+  subroutine make_room(self, error)
+    class(solver_t), intent(inout) :: self
+    type(error_t), allocatable, intent(out) :: error
+    integer :: n
+
+    n = size(self%left)
+    if (self%other == sparse) then
+      call self%mumps%prepare(n, self%row, self%column, self%symmetric, error)
+    else
+      allocate (self%matrix(n, n))
+    end if
+    self%has_room = .true.
+  end subroutine make_room
 
   !> Factorize the matrix with the entries `values` in the order of the pattern.
   subroutine factorize(self, values, error)
@@ -90,7 +116,14 @@ contains
     else
       call scale_general(self%row, self%column, values, self%left, self%right, self%scaled)
     end if
+    if (self%band%ready) then
+      call self%band%factorize(self%scaled)
+      self%method = merge(banded, self%other, self%band%regular)
+      if (.not. self%has_room .and. .not. self%band%regular) call make_room(self, error)
+      if (allocated(error)) return
+    end if
     select case (self%method)
+    case (banded)
     case (dense_symmetric)
       call fill(self%row, self%column, self%scaled, self%matrix)
       call self%ldl%factorize(self%matrix, error)
@@ -159,6 +192,8 @@ contains
       call self%ldl%solve(x, error)
     case (dense_general)
       call self%lu%solve(x, error)
+    case (banded)
+      call self%band%solve(x)
     case default
       call self%mumps%solve(x, error)
     end select
@@ -188,6 +223,8 @@ contains
       determinant_sign = 1 - 2*modulo(self%negative_pivots(), 2)
     else if (self%method == dense_general) then
       determinant_sign = self%lu%determinant_sign
+    else if (self%method == banded) then
+      determinant_sign = self%band%determinant_sign
     else
       determinant_sign = self%mumps%determinant_sign
     end if
@@ -199,7 +236,7 @@ contains
     integer, allocatable :: null_pivots(:)
 
     null_pivots = [integer ::]
-    if (.not. self%factorized) return
+    if (.not. self%factorized .or. self%method == banded) return
     select case (self%method)
     case (dense_symmetric)
       null_pivots = self%ldl%null
@@ -233,7 +270,9 @@ contains
     class(solver_t), intent(inout) :: self
 
     call self%mumps%free()
+    call self%band%free()
     self%method = 0
+    self%has_room = .false.
     self%factorized = .false.
     if (allocated(self%row)) deallocate (self%row, self%column, self%scaled, self%left, self%right)
     if (allocated(self%matrix)) deallocate (self%matrix)

@@ -1,6 +1,7 @@
 program run_tests
   use check, only: finish
   use test_linalg, only: run_linalg_tests
+  use test_linalg_band, only: run_linalg_band_tests
   use test_section_data, only: run_section_data_tests
   use test_section_plates, only: run_section_plates_tests
   use test_section_shapes, only: run_section_shapes_tests
@@ -65,6 +66,7 @@ program run_tests
   implicit none
 
   call run_linalg_tests()
+  call run_linalg_band_tests()
   call run_section_data_tests()
   call run_section_plates_tests()
   call run_section_shapes_tests()
