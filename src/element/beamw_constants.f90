@@ -2,7 +2,7 @@
 !>
 !> Generalized strains, from the strains e of the nodes (finite angles in the mid-twist frame for
 !> CONSISTENT, theory 5; those of the paper's (7) else):
-!>     strain(i) = sum w(i, j) e(j) + 1/2 sum q(j, k, i) e(j) e(k),     i = 1..9.
+!>     strain(i) = sum w(j, i) e(j) + 1/2 sum q(j, k, i) e(j) e(k),     i = 1..9.
 !> The first eight are the paper's modes at the shear centre ("s"), the ninth is the residual
 !> Wagner strain. Their stiffness is `s`. Computed once for all elements that are alike.
 module beamw_constants
@@ -22,8 +22,9 @@ module beamw_constants
     real(wp) :: length = 0.0_wp          !< l0 [L]
     logical :: angles = .false.          !< finite angles and mid-twist frame (CONSISTENT)
     logical :: warping = .true.          !< carries a bimoment
-    real(wp) :: w(9, 8) = 0.0_wp         !< first-order part, E of (41) with a row of zeros
+    real(wp) :: w(8, 9) = 0.0_wp         !< first-order part, E' of (41) with a column of zeros
     real(wp) :: q(8, 8, 9) = 0.0_wp      !< second-order parts [1/L], symmetric in the first two
+    logical :: curved(9) = .false.       !< by strain: whether its second-order part is not zero
     real(wp) :: s(9, 9) = 0.0_wp         !< stiffness [F/L]
   end type beamw_t
 
@@ -36,11 +37,12 @@ contains
     integer, intent(in) :: second  !< one of `beamw_*`
     type(beamw_t) :: self
     type(shears_t) :: gamma
+    integer :: i
 
     self%length = length
     self%angles = second == beamw_consistent
     self%warping = rigidity%eiw > 0
-    self%w(1:8, :) = eccentricity(rigidity, length)
+    self%w(:, 1:8) = transpose(eccentricity(rigidity, length))
     if (second == beamw_consistent) then
       call condensed_stiffness(rigidity, length, self%warping, gamma, self%s(1:8, 1:8))
       self%s(9, 9) = rigidity%eir/length
@@ -49,6 +51,7 @@ contains
       self%s(1:8, 1:8) = coupled_stiffness(rigidity, length, self%warping)
       if (second == beamw_jonker) self%q(:, :, 1:8) = jonker_second_order(rigidity, length)
     end if
+    self%curved = [(any(abs(self%q(:, :, i)) > 0), i=1, 9)]
   end function new_beamw
 
   !> Mean shear angles of the element (theory 4), rows y, z, omega, in the strains "s".

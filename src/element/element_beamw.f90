@@ -157,24 +157,41 @@ contains
     type(beamw_t), intent(in) :: c
     type(kinematics_t), intent(in) :: k
     real(wp), intent(out) :: strain(9), weight(9, 8), b(9, reduced)
-    real(wp) :: qe(8)
+    real(wp) :: qe(8), row(8)
     integer :: i, j
 
     do i = 1, 9
-      qe = 0
-      do j = 1, 8
-        qe = qe + c%q(:, j, i)*k%strain(j)
-      end do
-      weight(i, :) = c%w(i, :) + qe
-      strain(i) = dot_product(c%w(i, :) + 0.5_wp*qe, k%strain)
+      row = c%w(:, i)
+      strain(i) = dot_product(row, k%strain)
+      if (c%curved(i)) then
+        qe = product8(c%q(:, :, i), k%strain)
+        row = row + qe
+        strain(i) = strain(i) + 0.5_wp*dot_product(qe, k%strain)
+      end if
+      weight(i, :) = row
     end do
-    do j = 1, reduced
-      b(:, j) = 0
-      do i = 1, 8
-        b(:, j) = b(:, j) + weight(:, i)*k%gradient(j, i)
+    associate (d => k%gradient)  ! the chord does not twist, spins do not stretch: `to_mid_twist`
+      do j = 1, 3
+        b(:, j) = weight(:, 1)*d(j, 1) + weight(:, 3)*d(j, 3) + weight(:, 4)*d(j, 4) &
+                  + weight(:, 5)*d(j, 5) + weight(:, 6)*d(j, 6)
       end do
-    end do
+      do j = 4, 9
+        b(:, j) = weight(:, 2)*d(j, 2) + weight(:, 3)*d(j, 3) + weight(:, 4)*d(j, 4) &
+                  + weight(:, 5)*d(j, 5) + weight(:, 6)*d(j, 6)
+      end do
+      b(:, 10) = weight(:, 7)*d(10, 7)
+      b(:, 11) = weight(:, 8)*d(11, 8)
+    end associate
   end subroutine beamw_strains
+
+  !> A matrix of fixed size times a vector.
+  pure function product8(matrix, x) result(y)
+    real(wp), intent(in) :: matrix(8, 8), x(8)
+    real(wp) :: y(8)
+
+    y = matrix(:, 1)*x(1) + matrix(:, 2)*x(2) + matrix(:, 3)*x(3) + matrix(:, 4)*x(4) &
+        + matrix(:, 5)*x(5) + matrix(:, 6)*x(6) + matrix(:, 7)*x(7) + matrix(:, 8)*x(8)
+  end function product8
 
   !> Sum of stress(i) times the Hessian of strain i in the eleven coordinates.
   pure subroutine beamw_geometric(c, k, stress, weight, g)
@@ -187,20 +204,22 @@ contains
 
     qs = 0
     do i = 1, 9
-      qs = qs + stress(i)*c%q(:, :, i)
+      if (c%curved(i)) qs = qs + stress(i)*c%q(:, :, i)
     end do
-    dq = 0
-    do j = 1, 8
-      do i = 1, 8
-        dq(:, j) = dq(:, j) + k%gradient(:, i)*qs(i, j)
+    associate (d => k%gradient)
+      do j = 1, 8
+        dq(1:9, j) = d(1:9, 1)*qs(1, j) + d(1:9, 2)*qs(2, j) + d(1:9, 3)*qs(3, j) &
+                     + d(1:9, 4)*qs(4, j) + d(1:9, 5)*qs(5, j) + d(1:9, 6)*qs(6, j)
+        dq(10, j) = d(10, 7)*qs(7, j)
+        dq(11, j) = d(11, 8)*qs(8, j)
       end do
-    end do
-    g = 0
-    do j = 1, reduced
-      do i = 1, 8
-        g(:, j) = g(:, j) + dq(:, i)*k%gradient(j, i)
+      do j = 1, 9
+        g(:, j) = dq(:, 1)*d(j, 1) + dq(:, 2)*d(j, 2) + dq(:, 3)*d(j, 3) &
+                  + dq(:, 4)*d(j, 4) + dq(:, 5)*d(j, 5) + dq(:, 6)*d(j, 6)
       end do
-    end do
+      g(:, 10) = dq(:, 7)*d(10, 7)
+      g(:, 11) = dq(:, 8)*d(11, 8)
+    end associate
     call beam_curvature(k, matmul(stress, weight), h)
     g(1:9, 1:9) = g(1:9, 1:9) + h
   end subroutine beamw_geometric

@@ -35,9 +35,12 @@ contains
   pure function rotated(p, triad) result(image)
     real(wp), intent(in) :: p(0:3), triad(3, 3)
     real(wp) :: image(3, 3), r(3, 3)
+    integer :: j
 
     r = rotation_matrix(p)
-    image = matmul(r, triad)
+    do j = 1, 3
+      image(:, j) = r(:, 1)*triad(1, j) + r(:, 2)*triad(2, j) + r(:, 3)*triad(3, j)
+    end do
   end function rotated
 
   !> Euler parameters after a further rotation by the spatial rotation vector `theta` [rad]:

@@ -136,7 +136,9 @@ contains
     stress(:n) = stress(:n) + system%initial_stress(first:last)
     iterate%elastic(first:last) = stress(:n)
     if (allocated(iterate%velocity)) then
-      call add_damping(element, first, jacobian, iterate, law)
+      if (element%damped .or. e > system%members) then
+        call add_damping(element, first, jacobian, iterate, law)
+      end if
       if (element%damped) stress(:n) = stress(:n) + iterate%viscous(first:last)
     end if
     call add_forces(system, element, first, jacobian, stress, iterate)
@@ -154,7 +156,7 @@ contains
 
     product = 0
     do j = 1, n
-      product = product + matrix(:, j)*vector(j)
+      if (abs(vector(j)) > 0) product = product + matrix(:, j)*vector(j)
     end do
   end subroutine multiply
 
@@ -182,21 +184,30 @@ contains
     end associate
   end subroutine add_forces
 
-  !> tangent + D' S D, with the products of the columns j and i <= j of D alone.
+  !> tangent + D' S D, column by column below the diagonal; most entries of S are zero.
   pure subroutine add_stiffness(element, jacobian, law, tangent)
     class(element_t), intent(in) :: element
     real(wp), intent(in) :: jacobian(element%strains, element%coordinates)
     real(wp), intent(in) :: law(element%strains, element%strains)
     real(wp), intent(inout) :: tangent(element%coordinates, element%coordinates)
-    real(wp) :: rate(max_strains)
-    integer :: i, j
+    real(wp), dimension(max_coordinates, max_strains) :: row, product
+    integer :: i, j, n
 
-    do j = 1, element%coordinates
-      call multiply(element%strains, law, jacobian(:, j), rate)
-      do i = 1, j
-        tangent(i, j) = tangent(i, j) + dot_product(jacobian(:, i), rate(:element%strains))
-        tangent(j, i) = tangent(i, j)
+    n = element%coordinates
+    do j = 1, n
+      row(j, :element%strains) = jacobian(:, j)
+    end do
+    do j = 1, element%strains
+      product(:n, j) = 0
+      do i = 1, element%strains
+        if (abs(law(i, j)) > 0) product(:n, j) = product(:n, j) + row(:n, i)*law(i, j)
       end do
+    end do
+    do j = 1, n
+      do i = 1, element%strains
+        if (abs(row(j, i)) > 0) tangent(j:, j) = tangent(j:, j) + product(j:n, i)*row(j, i)
+      end do
+      tangent(j, j:) = tangent(j:, j)
     end do
   end subroutine add_stiffness
 
@@ -224,18 +235,19 @@ contains
     real(wp), intent(in) :: jacobian(element%strains, element%coordinates)
     type(iterate_t), intent(inout) :: iterate
     real(wp), intent(inout) :: law(element%strains, element%strains)
-    real(wp) :: viscosity(element%strains, element%strains), rate(element%strains)
-    integer :: i
+    real(wp) :: viscosity(max_strains**2), rate(max_strains)
+    integer :: i, n
 
+    n = element%strains
     rate = 0
     do i = 1, element%coordinates
-      rate = rate + jacobian(:, i)*iterate%velocity(element%coordinate(i))
+      rate(:n) = rate(:n) + jacobian(:, i)*iterate%velocity(element%coordinate(i))
     end do
-    iterate%rate(first:first + element%strains - 1) = rate
+    iterate%rate(first:first + n - 1) = rate(:n)
     if (.not. element%damped) return
     call element%damping(viscosity)
-    iterate%viscous(first:first + element%strains - 1) = matmul(viscosity, rate)
-    law = law + iterate%velocity_share*viscosity
+    call multiply(n, viscosity, rate, iterate%viscous(first))
+    law = law + iterate%velocity_share*reshape(viscosity(:n**2), [n, n])
   end subroutine add_damping
 
   !> What round-off in a coordinate is relative to: displacements and the element's size, one
@@ -363,24 +375,25 @@ contains
     real(wp), intent(in) :: jacobian(element%strains, element%coordinates), solution(:), share
     real(wp), intent(in) :: increment(:)
     type(iterate_t), intent(inout) :: iterate
-    real(wp) :: law(element%strains, element%strains), strain(element%strains)
-    real(wp) :: stress(element%strains)
-    integer :: first, last, i
+    real(wp) :: law(max_strains**2), strain(max_strains), stress(max_strains)
+    integer :: first, last, i, n
 
+    n = element%strains
     first = system%first(e) + 1
     last = system%first(e + 1)
     call element%law(law)
-    strain = iterate%strain(first:last)
+    strain(:n) = iterate%strain(first:last)
     do i = 1, element%coordinates
-      strain = strain + jacobian(:, i)*increment(element%coordinate(i))
+      strain(:n) = strain(:n) + jacobian(:, i)*increment(element%coordinate(i))
     end do
-    stress = matmul(law, strain) + system%initial_stress(first:last)
+    call multiply(n, law, strain, stress)
+    stress(:n) = stress(:n) + system%initial_stress(first:last)
     do i = 1, element%strains
       associate (old => iterate%stress(first + i - 1), at => system%multiplier(first + i - 1))
         if (at > 0) stress(i) = old + share*(solution(at) - old)
       end associate
     end do
-    iterate%stress(first:last) = stress
+    iterate%stress(first:last) = stress(:n)
   end subroutine extrapolate
 
 end module system_assembly

@@ -11,7 +11,7 @@ module system_dynamics
   use node_inertia, only: node_inertia_forces
   use system_data, only: system_t
   use system_pattern, only: add_block
-  use system_inertia, only: masses_t, mass_product, rigid_motion, body_size
+  use system_inertia, only: masses_t, rigid_motion, body_size
   implicit none
   private
 
@@ -153,12 +153,23 @@ contains
     type(masses_t), intent(in) :: masses
     type(state_t), intent(in) :: state
     real(wp), intent(in) :: velocity(:)
-    real(wp), dimension(system%coordinates, 1) :: motion, product
+    real(wp) :: product(system%coordinates)
 
-    motion(:, 1) = velocity
-    call mass_product(masses, state, motion, product)
-    energy = 0.5_wp*dot_product(velocity, product(:, 1))
+    call mass_times(masses, state, velocity, product)
+    energy = 0.5_wp*dot_product(velocity, product)
   end function kinetic_energy
+
+  !> M v: the inertia forces of accelerations v at rest.
+  pure subroutine mass_times(masses, state, velocity, product)
+    type(masses_t), intent(in) :: masses
+    type(state_t), intent(in) :: state
+    real(wp), intent(in) :: velocity(:)
+    real(wp), intent(out) :: product(:)
+    real(wp) :: rest(size(velocity))
+
+    rest = 0
+    call inertia_forces(masses, state, rest, velocity, product)
+  end subroutine mass_times
 
   !> Kinetic energy, and linear and angular momentum about the origin.
   pure subroutine momentum(system, masses, state, velocity, energy, total)
@@ -167,13 +178,12 @@ contains
     type(state_t), intent(in) :: state
     real(wp), intent(in) :: velocity(:)
     real(wp), intent(out) :: energy, total(6)
-    real(wp), dimension(system%coordinates, 1) :: motion, product
+    real(wp) :: product(system%coordinates)
     real(wp), parameter :: origin(3) = 0
 
-    motion(:, 1) = velocity
-    call mass_product(masses, state, motion, product)
-    energy = 0.5_wp*dot_product(velocity, product(:, 1))
-    total = matmul(product(:, 1), rigid_motion(masses, state, origin, system%coordinates))
+    call mass_times(masses, state, velocity, product)
+    energy = 0.5_wp*dot_product(velocity, product)
+    total = matmul(product, rigid_motion(masses, state, origin, system%coordinates))
   end subroutine momentum
 
 end module system_dynamics

@@ -3,7 +3,7 @@
 module system_motion
   use kinds, only: wp
   use model_data, only: model_t, motion_t, time_analyses
-  use model_functions, only: function_jet
+  use model_functions, only: function_value, function_jet
   use system_data, only: system_t, drive_t, turn_t
   implicit none
   private
@@ -201,7 +201,12 @@ contains
     do i = 1, size(system%drive)
       associate (d => system%drive(i), s => level(system%drive(i)%pattern))
         if (d%function > 0) then
-          call function_jet(system%function(d%function), s, jet(:, i))
+          jet(1:2, i) = 0
+          if (growing(d%pattern)) then
+            call function_jet(system%function(d%function), s, jet(:, i))
+          else
+            jet(0, i) = function_value(system%function(d%function), s)
+          end if
           jet(:, i) = d%value*jet(:, i)
         else if (system%timed(d%pattern)) then
           jet(:, i) = [d%value, 0.0_wp, 0.0_wp]
