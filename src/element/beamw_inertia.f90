@@ -7,7 +7,7 @@
 !> (7, 2) or (14) for p and q.
 module beamw_inertia
   use kinds, only: wp
-  use rotation, only: rotated, cross, skew, identity3
+  use rotation, only: rotated, cross, add_skew, identity3
   implicit none
   private
 
@@ -75,16 +75,24 @@ contains
     type(inertia_t), intent(in) :: self
     real(wp), intent(in) :: euler(0:3, 2), warping(2)
     type(ends_t) :: ends
-    real(wp) :: axes(3, 3)
-    integer :: e
+    real(wp) :: axes(3, 3), turned(3, 3)
+    integer :: e, j
 
     do e = 1, 2
       axes = rotated(euler(:, e), self%triad)
       ends%s(:, e) = matmul(axes, self%s)
       ends%d(:, e) = axes(:, 1) + warping(e)*ends%s(:, e)
-      ends%slope(:, 1:3, e) = -skew(ends%d(:, e))
+      ends%slope(:, 1:3, e) = 0
+      call add_skew(-1.0_wp, ends%d(:, e), ends%slope(:, 1:3, e))
       ends%slope(:, 4, e) = ends%s(:, e)
-      ends%rotary(:, :, e) = matmul(matmul(axes, self%section), transpose(axes))
+      do j = 1, 3
+        turned(:, j) = axes(:, 1)*self%section(1, j) + axes(:, 2)*self%section(2, j) &
+                       + axes(:, 3)*self%section(3, j)
+      end do
+      do j = 1, 3
+        ends%rotary(:, j, e) = turned(:, 1)*axes(j, 1) + turned(:, 2)*axes(j, 2) &
+                               + turned(:, 3)*axes(j, 3)
+      end do
     end do
   end function ends_of
 

@@ -122,13 +122,14 @@ contains
     integer, intent(in) :: n, w, k, p
     real(wp), intent(inout) :: a(0:3*w, n)
     integer, intent(inout) :: reach(n)
-    real(wp) :: row(0:2*w)
-    integer :: m
+    real(wp) :: entry
+    integer :: j, m
 
-    m = max(reach(k), reach(p) + p - k)
-    row(:m) = a(w:w + m, k)
-    a(w:w + m, k) = a(w + k - p:w + k - p + m, p)
-    a(w + k - p:w + k - p + m, p) = row(:m)
+    do j = 0, max(reach(k), reach(p) + p - k)
+      entry = a(w + j, k)
+      a(w + j, k) = a(w + k - p + j, p)
+      a(w + k - p + j, p) = entry
+    end do
     m = reach(k)
     reach(k) = reach(p) + p - k
     reach(p) = m + k - p

@@ -5,7 +5,6 @@
 module system_dynamics
   use kinds, only: wp
   use nodal_state, only: state_t
-  use rotation, only: skew
   use beamw_inertia, only: inertia_force
   use beamw_inertia_tangent, only: inertia_force_and_tangents
   use node_inertia, only: node_inertia_forces
@@ -35,24 +34,61 @@ contains
     real(wp), intent(out) :: force(:)
     real(wp), dimension(body_size) :: v, a, f
     real(wp), dimension(6, 6) :: mass, rate, place
-    integer :: k, n
+    real(wp) :: euler(0:3, 2), warping(2)
+    integer :: k
 
     force = 0
     do k = 1, masses%bodies
-      n = masses%coordinates(k)
-      associate (at => masses%coordinate(:n, k))
-        v(:n) = velocity(at)
-        a(:n) = acceleration(at)
-        if (k <= masses%beams) then
-          call inertia_force(masses%beam(k), state%euler(:, masses%node(2, :, k)), &
-                             state%warping(masses%node(3, :, k)), v, a, f)
-        else
-          call other_body(masses, k, state, v(:6), a(:6), f(:6), mass, rate, place)
-        end if
-        force(at) = force(at) + f(:n)
-      end associate
+      call gather(masses, k, velocity, acceleration, v, a)
+      if (k <= masses%beams) then
+        call gather_ends(masses, k, state, euler, warping)
+        call inertia_force(masses%beam(k), euler, warping, v, a, f)
+      else
+        call other_body(masses, k, state, v(:6), a(:6), f(:6), mass, rate, place)
+      end if
+      call scatter(masses, k, f, force)
     end do
   end subroutine inertia_forces
+
+  !> Velocities and accelerations of a body. Loops, as vector subscripts would be allocated.
+  pure subroutine gather(masses, k, velocity, acceleration, v, a)
+    type(masses_t), intent(in) :: masses
+    integer, intent(in) :: k
+    real(wp), intent(in) :: velocity(:), acceleration(:)
+    real(wp), intent(out) :: v(body_size), a(body_size)
+    integer :: i
+
+    do i = 1, masses%coordinates(k)
+      v(i) = velocity(masses%coordinate(i, k))
+      a(i) = acceleration(masses%coordinate(i, k))
+    end do
+  end subroutine gather
+
+  !> Rotations and warping of a beam's ends.
+  pure subroutine gather_ends(masses, k, state, euler, warping)
+    type(masses_t), intent(in) :: masses
+    integer, intent(in) :: k
+    type(state_t), intent(in) :: state
+    real(wp), intent(out) :: euler(0:3, 2), warping(2)
+    integer :: e
+
+    do e = 1, 2
+      euler(:, e) = state%euler(:, masses%node(2, e, k))
+      warping(e) = state%warping(masses%node(3, e, k))
+    end do
+  end subroutine gather_ends
+
+  pure subroutine scatter(masses, k, f, force)
+    type(masses_t), intent(in) :: masses
+    integer, intent(in) :: k
+    real(wp), intent(in) :: f(body_size)
+    real(wp), intent(inout) :: force(:)
+    integer :: i
+
+    do i = 1, masses%coordinates(k)
+      force(masses%coordinate(i, k)) = force(masses%coordinate(i, k)) + f(i)
+    end do
+  end subroutine scatter
 
   !> Forces and tangents of a truss or a node.
   pure subroutine other_body(masses, k, state, v, a, f, mass, rate, place)
@@ -87,29 +123,24 @@ contains
     real(wp), intent(inout) :: values(:)
     real(wp), dimension(body_size) :: v, a, f
     real(wp), dimension(body_size, body_size) :: mass, rate, place
+    real(wp) :: euler(0:3, 2), warping(2)
     integer :: k, n
 
     force = 0
     do k = 1, masses%bodies
       n = masses%coordinates(k)
-      associate (at => masses%coordinate(:n, k))
-        v(:n) = velocity(at)
-        a(:n) = acceleration(at)
-        if (k <= masses%beams) then
-          call inertia_force_and_tangents(masses%beam(k), state%euler(:, masses%node(2, :, k)), &
-                                          state%warping(masses%node(3, :, k)), v, a, f, mass, &
-                                          rate, place)
-        else
-          call other_body(masses, k, state, v(:6), a(:6), f(:6), mass(:6, :6), rate(:6, :6), &
-                          place(:6, :6))
-        end if
-        force(at) = force(at) + f(:n)
-        rate(:n, :n) = shares%velocity*rate(:n, :n) + shares%acceleration*mass(:n, :n)
-        call turn_columns(masses, k, shares, rate(:n, :n))
-        call symmetrize_place(masses, k, f(:n), place(:n, :n))
-        place(:n, :n) = place(:n, :n) + rate(:n, :n)
-        call add_block(system%pattern, masses%block(k), place(:n, :n), values)
-      end associate
+      call gather(masses, k, velocity, acceleration, v, a)
+      if (k <= masses%beams) then
+        call gather_ends(masses, k, state, euler, warping)
+        call inertia_force_and_tangents(masses%beam(k), euler, warping, v, a, f, mass, rate, place)
+      else
+        call other_body(masses, k, state, v(:6), a(:6), f(:6), mass(:6, :6), rate(:6, :6), &
+                        place(:6, :6))
+      end if
+      call scatter(masses, k, f, force)
+      call symmetrize_place(masses, k, f, place)
+      call add_rates(masses, k, shares, mass, rate, place)
+      call add_block(system%pattern, masses%block(k), place(:n, :n), values)
     end do
   end subroutine add_inertia
 
@@ -119,33 +150,54 @@ contains
   pure subroutine symmetrize_place(masses, k, force, place)
     type(masses_t), intent(in) :: masses
     integer, intent(in) :: k
-    real(wp), intent(in) :: force(:)
-    real(wp), intent(inout) :: place(:, :)
-    integer :: e
+    real(wp), intent(in) :: force(body_size)
+    real(wp), intent(inout) :: place(body_size, body_size)
+    integer :: e, i, j, l
 
     do e = 1, 2
       if (masses%node(2, e, k) == 0) cycle
-      associate (spin => [7*e - 3, 7*e - 2, 7*e - 1])
-        place(spin, spin) = place(spin, spin) + 0.5_wp*skew(force(spin))
-      end associate
+      do i = 1, 3
+        j = 1 + modulo(i, 3)
+        l = 1 + modulo(j, 3)
+        associate (half => 0.5_wp*force(7*e - 4 + i))
+          place(7*e - 4 + l, 7*e - 4 + j) = place(7*e - 4 + l, 7*e - 4 + j) + half
+          place(7*e - 4 + j, 7*e - 4 + l) = place(7*e - 4 + j, 7*e - 4 + l) - half
+        end associate
+      end do
     end do
   end subroutine symmetrize_place
 
-  !> Columns of rotations, from rotation vectors of the step to spins.
-  pure subroutine turn_columns(masses, k, shares, tangent)
+  !> What an increment changes through velocity and acceleration; columns of rotations go from
+  !> rotation vectors of the step to spins.
+  pure subroutine add_rates(masses, k, shares, mass, rate, place)
     type(masses_t), intent(in) :: masses
     integer, intent(in) :: k
     type(shares_t), intent(in) :: shares
-    real(wp), intent(inout) :: tangent(:, :)
-    integer :: e
+    real(wp), intent(in), dimension(body_size, body_size) :: mass, rate
+    real(wp), intent(inout) :: place(body_size, body_size)
+    real(wp) :: sum_of(body_size, body_size)
+    integer :: e, j, n, spin
 
+    n = masses%coordinates(k)
+    do j = 1, n
+      sum_of(:n, j) = shares%velocity*rate(:n, j) + shares%acceleration*mass(:n, j)
+    end do
     do e = 1, 2
       associate (node => masses%node(2, e, k))
-        if (node == 0) cycle
-        tangent(:, 7*e - 3:7*e - 1) = matmul(tangent(:, 7*e - 3:7*e - 1), shares%turn(:, :, node))
+        do j = 7*e - 6, min(7*e, n)
+          spin = j - (7*e - 4)
+          if (spin >= 1 .and. spin <= 3 .and. node > 0) then
+            associate (t => shares%turn(:, spin, node))
+              place(:n, j) = place(:n, j) + sum_of(:n, 7*e - 3)*t(1) &
+                             + sum_of(:n, 7*e - 2)*t(2) + sum_of(:n, 7*e - 1)*t(3)
+            end associate
+          else
+            place(:n, j) = place(:n, j) + sum_of(:n, j)
+          end if
+        end do
       end associate
     end do
-  end subroutine turn_columns
+  end subroutine add_rates
 
   !> Of all masses [F L].
   pure real(wp) function kinetic_energy(system, masses, state, velocity) result(energy)
