@@ -40,6 +40,10 @@ module dynamic_equilibrium
   !> Behind a larger one Newton is on its way still, and the places alone lead it.
   real(wp), parameter :: near = 1.0e-2_wp
 
+  !> After an increment this small strains are linear in it to round-off, and their forces to this
+  !> part of them: nothing is evaluated again.
+  real(wp), parameter :: linear = 1.0e-9_wp
+
   !> An increment this large, in lengths of the model or radians, is no solution.
   real(wp), parameter :: far = 10.0_wp
 
@@ -169,8 +173,10 @@ contains
       return
     end do
     self%iterate%keeps_matrix = .true.
+    self%iterate%keeps_strains = largest <= linear
     call assemble_motion(self, level, increment, next)
     self%iterate%keeps_matrix = .false.
+    self%iterate%keeps_strains = .false.
     outcome%last%constraint = largest_gap(self)/self%system%length
     if (self%iterate%invalid > 0) then
       outcome%status = newton_distorted

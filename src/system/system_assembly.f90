@@ -28,7 +28,7 @@ module system_assembly
     real(wp), allocatable :: internal(:)    !< by coordinate: forces of the strains' stresses
     real(wp), allocatable :: constraint(:)  !< by coordinate: forces of the multipliers
     real(wp), allocatable :: external(:)    !< by coordinate: loads
-    real(wp), allocatable :: noise(:)       !< by coordinate: round-off to expect in the forces
+    real(wp), allocatable :: noise(:)       !< by coordinate: round-off to expect in the forces, at rest
     real(wp), allocatable :: values(:)      !< entries of the matrix
     !> Only of a motion in time, else not allocated: velocities by coordinate, given; rates of the
     !> strains and their viscous stress resultants, found.
@@ -36,6 +36,7 @@ module system_assembly
     real(wp) :: velocity_share = 0.0_wp     !< change of the velocities with the coordinates [1/T]
     real(wp), allocatable :: inertial(:)    !< by coordinate: inertia forces, of a motion in time
     logical :: keeps_matrix = .false.       !< the next assembly leaves `values` and `noise` alone
+    logical :: keeps_strains = .false.      !< and strains and Jacobian as `advance` left them
     integer :: invalid = 0                  !< an element rotated beyond its range; 0: none
   end type iterate_t
 
@@ -113,7 +114,7 @@ contains
     type(system_t), intent(in) :: system
     integer, intent(in) :: e
     class(element_t), intent(in) :: element
-    real(wp), intent(out) :: jacobian(element%strains, element%coordinates)
+    real(wp), intent(inout) :: jacobian(element%strains, element%coordinates)
     type(iterate_t), intent(inout) :: iterate
     real(wp), dimension(max_strains) :: strain, stress
     real(wp) :: law(max_strains**2), tangent(max_coordinates**2)
@@ -123,15 +124,19 @@ contains
     n = element%strains
     first = system%first(e) + 1
     last = system%first(e + 1)
-    stress = 0
-    if (.not. iterate%keeps_matrix) stress(:n) = iterate%stress(first:last)
-    call element%evaluate(iterate%state, stress, strain, jacobian, tangent, valid)
-    if (.not. valid) then
-      iterate%invalid = e
-      return
+    if (iterate%keeps_strains) then
+      strain(:n) = iterate%strain(first:last)
+    else
+      stress = 0
+      if (.not. iterate%keeps_matrix) stress(:n) = iterate%stress(first:last)
+      call element%evaluate(iterate%state, stress, strain, jacobian, tangent, valid)
+      if (.not. valid) then
+        iterate%invalid = e
+        return
+      end if
+      iterate%strain(first:last) = strain(:n)
     end if
     call element%law(law)
-    iterate%strain(first:last) = strain(:n)
     call multiply(n, law, strain, stress)
     stress(:n) = stress(:n) + system%initial_stress(first:last)
     iterate%elastic(first:last) = stress(:n)
@@ -144,7 +149,7 @@ contains
     call add_forces(system, element, first, jacobian, stress, iterate)
     if (iterate%keeps_matrix) return
     call add_stiffness(element, jacobian, law, tangent)
-    call add_noise(element, tangent, iterate)
+    if (.not. allocated(iterate%velocity)) call add_noise(element, tangent, iterate)
     call add_element(system, e, element, tangent, jacobian, iterate%values)
   end subroutine assemble_element
 
@@ -207,7 +212,9 @@ contains
       do i = 1, element%strains
         if (abs(row(j, i)) > 0) tangent(j:, j) = tangent(j:, j) + product(j:n, i)*row(j, i)
       end do
-      tangent(j, j:) = tangent(j:, j)
+      do i = j + 1, n
+        tangent(j, i) = tangent(i, j)
+      end do
     end do
   end subroutine add_stiffness
 
@@ -281,17 +288,19 @@ contains
     real(wp), intent(in) :: tangent(element%coordinates, element%coordinates)
     real(wp), intent(in) :: jacobian(element%strains, element%coordinates)
     real(wp), intent(inout) :: values(:)
-    real(wp), allocatable :: bordered(:, :)
-    integer :: i, n, row
+    real(wp) :: bordered(max_coordinates + max_strains, max_coordinates + max_strains)
+    integer :: i, j, n, row, width
 
     n = element%coordinates
-    if (system%pattern%width(e) == n) then
+    width = system%pattern%width(e)
+    if (width == n) then
       call add_block(system%pattern, e, tangent, values)
       return
     end if
-    allocate (bordered(system%pattern%width(e), system%pattern%width(e)))
-    bordered = 0
-    bordered(:n, :n) = tangent
+    do j = 1, n
+      bordered(:n, j) = tangent(:, j)
+    end do
+    bordered(n + 1:width, n + 1:width) = 0
     row = n
     do i = 1, element%strains
       if (system%multiplier(system%first(e) + i) == 0) cycle
@@ -299,7 +308,7 @@ contains
       bordered(row, :n) = jacobian(i, :)
       bordered(:n, row) = jacobian(i, :)
     end do
-    call add_block(system%pattern, e, bordered, values)
+    call add_block(system%pattern, e, bordered(:width, :width), values)
   end subroutine add_element
 
   !> Right-hand side of the mixed Newton step: loads minus forces of the strains; what the held
@@ -343,7 +352,7 @@ contains
     end do
   end function pattern_direction
 
-  !> Take a step: move the state by `share` of the solution, extrapolate the stresses.
+  !> Take a step: move the state by `share` of the solution, extrapolate strains and stresses.
   pure subroutine advance(system, solution, share, iterate, increment)
     type(system_t), intent(in) :: system
     real(wp), intent(in) :: solution(:), share
@@ -386,6 +395,7 @@ contains
     do i = 1, element%coordinates
       strain(:n) = strain(:n) + jacobian(:, i)*increment(element%coordinate(i))
     end do
+    iterate%strain(first:last) = strain(:n)
     call multiply(n, law, strain, stress)
     stress(:n) = stress(:n) + system%initial_stress(first:last)
     do i = 1, element%strains
