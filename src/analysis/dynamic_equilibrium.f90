@@ -34,7 +34,8 @@ module dynamic_equilibrium
   !> Fixed strains are on their targets to this part of the model's length.
   real(wp), parameter :: constraint_tolerance = 1.0e-12_wp
 
-  !> An iteration that reduces the increment less than this asks for new factors.
+  !> An iteration that reduces the increment less than this asks for new factors, unless one more
+  !> like it will do.
   real(wp), parameter :: slow = 0.1_wp
 
   !> Behind a larger one Newton is on its way still, and the places alone lead it.
@@ -162,7 +163,7 @@ contains
       end if
       left = largest
       if (before < huge(before)) left = largest*min(1.0_wp, largest/before)
-      fresh = largest > slow*before
+      fresh = largest > slow*before .and. left*largest > self%tolerance*before
       before = largest
       if (left <= self%tolerance .and. .not. rough .and. &
           (outcome%last%constraint <= constraint_tolerance .or. &
@@ -259,10 +260,6 @@ contains
     type(flow_t), intent(in) :: next
     integer :: i
 
-    do i = 1, self%system%nodes
-      self%shares%turn(:, :, i) = &
-        inverse_tangent(increment(node_coordinates*i - 3:node_coordinates*i - 1))
-    end do
     self%iterate%velocity = next%velocity
     call assemble(self%system, level, self%iterate)
     if (self%iterate%invalid > 0) return
@@ -272,6 +269,10 @@ contains
                           self%iterate%inertial)
       return
     end if
+    do i = 1, self%system%nodes
+      self%shares%turn(:, :, i) = &
+        inverse_tangent(increment(node_coordinates*i - 3:node_coordinates*i - 1))
+    end do
     call add_inertia(self%system, self%masses, self%shares, self%iterate%state, next%velocity, &
                      next%acceleration + self%mass_damping*next%velocity, self%iterate%inertial, &
                      self%iterate%values)
