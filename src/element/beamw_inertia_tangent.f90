@@ -9,7 +9,7 @@ module beamw_inertia_tangent
   implicit none
   private
 
-  public :: inertia_force_and_tangents
+  public :: inertia_force_and_tangents, inertia_step_tangent
 
 contains
 
@@ -44,7 +44,7 @@ contains
     call spread_line(self%line, ends%slope, ends%slope, mass)
     call spread_line(self%line, ends%slope, of_velocity, rate)
     call spread_line(self%line, ends%slope, of_place, place)
-    call add_translation(self%line, mass)
+    call add_translation(self%line, ends%slope, 1.0_wp, mass)
     do e = 1, 2
       force(1:3, e) = p(:, 2*e - 1)
       force(4:7, e) = matmul(p(:, 2*e), ends%slope(:, :, e))
@@ -53,6 +53,62 @@ contains
                        7*e - 4, force(:, e), mass, rate, place)
     end do
   end subroutine inertia_force_and_tangents
+
+  !> Forces, and what an increment of the coordinates changes in them directly and by the velocities
+  !> and accelerations that go with it: place + (share(1) rate + share(2) mass) T in the words of
+  !> `inertia_force_and_tangents`, T the unit matrix but for the spins. In one pass.
+  pure subroutine inertia_step_tangent(self, euler, warping, velocity, acceleration, share, turn, &
+                                       force, tangent)
+    type(inertia_t), intent(in) :: self
+    real(wp), intent(in) :: euler(0:3, 2), warping(2)
+    real(wp), intent(in), dimension(7, 2) :: velocity, acceleration
+    real(wp), intent(in) :: share(2)       !< change of velocity [T^-1] and acceleration [T^-2]
+    real(wp), intent(in) :: turn(3, 3, 2)  !< T of the spins of p and q
+    real(wp), intent(out) :: force(7, 2), tangent(14, 14)
+    type(ends_t) :: ends
+    real(wp) :: p(3, 4), change(3, 4, 2), rate(3, 4), moment(3)
+    real(wp), dimension(3, 3) :: to_spin, to_place
+    integer :: e, i, at
+
+    ends = ends_of(self, euler, warping)
+    do e = 1, 2
+      p(:, 2*e - 1) = acceleration(1:3, e)
+      call accelerate(ends%d(:, e), ends%s(:, e), velocity(4:7, e), acceleration(4:7, e), &
+                      p(:, 2*e), rate, change(:, :, e))
+      rate = share(1)*rate + share(2)*ends%slope(:, :, e)
+      call add_product(rate(:, 1:3), turn(:, :, e), change(:, 1:3, e))
+      change(:, 4, e) = change(:, 4, e) + rate(:, 4)
+    end do
+    p = matmul(p, self%line)
+    call spread_line(self%line, ends%slope, change, tangent)
+    call add_translation(self%line, ends%slope, share(2), tangent)
+    do e = 1, 2
+      at = 7*e - 4
+      force(1:3, e) = p(:, 2*e - 1)
+      force(4:7, e) = matmul(p(:, 2*e), ends%slope(:, :, e))
+      call turn_arms(ends%d(:, e), ends%s(:, e), p(:, 2*e), at, tangent)
+      call rotary_moment(ends%rotary(:, :, e), velocity(4:6, e), acceleration(4:6, e), moment, &
+                         to_spin, to_place)
+      call add_product(share(1)*to_spin + share(2)*ends%rotary(:, :, e), turn(:, :, e), to_place)
+      do i = 1, 3
+        tangent(at + 1:at + 3, at + i) = tangent(at + 1:at + 3, at + i) + to_place(:, i)
+      end do
+      tangent(at + 4, at + 4) = tangent(at + 4, at + 4) + share(2)*self%warping
+      force(4:6, e) = force(4:6, e) + moment
+      force(7, e) = force(7, e) + self%warping*acceleration(7, e)
+    end do
+  end subroutine inertia_step_tangent
+
+  !> c + a b.
+  pure subroutine add_product(a, b, c)
+    real(wp), intent(in) :: a(3, 3), b(3, 3)
+    real(wp), intent(inout) :: c(3, 3)
+    integer :: j
+
+    do j = 1, 3
+      c(:, j) = c(:, j) + a(:, 1)*b(1, j) + a(:, 2)*b(2, j) + a(:, 3)*b(3, j)
+    end do
+  end subroutine add_product
 
   !> d'' = w' x d + w x (w x d) + alpha'' s + 2 alpha' w x s of an end, its derivatives to the
   !> velocities and to the place of spin and alpha. A turn moves d and s, and alpha moves d.
@@ -106,17 +162,18 @@ contains
     end do
   end subroutine spread_line
 
-  !> The accelerations of r: the columns of the mass matrix that `spread_line` left zero.
-  pure subroutine add_translation(line, mass)
-    real(wp), intent(in) :: line(4, 4)
+  !> The accelerations of r: the columns of the mass matrix that `spread_line` left zero, times
+  !> `share`.
+  pure subroutine add_translation(line, slope, share, mass)
+    real(wp), intent(in) :: line(4, 4), slope(3, 4, 2), share
     real(wp), intent(inout) :: mass(14, 14)
     integer :: i, j, k
 
     do j = 1, 2
       do i = 1, 2
         do k = 1, 3
-          mass(7*i - 7 + k, 7*j - 7 + k) = line(2*i - 1, 2*j - 1)
-          mass(7*i - 3:7*i, 7*j - 7 + k) = mass(7*j - 7 + k, 7*i - 3:7*i)
+          mass(7*i - 7 + k, 7*j - 7 + k) = share*line(2*i - 1, 2*j - 1)
+          mass(7*i - 3:7*i, 7*j - 7 + k) = share*line(2*i, 2*j - 1)*slope(k, :, i)
         end do
       end do
     end do

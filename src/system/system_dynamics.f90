@@ -6,7 +6,7 @@ module system_dynamics
   use kinds, only: wp
   use nodal_state, only: state_t
   use beamw_inertia, only: inertia_force
-  use beamw_inertia_tangent, only: inertia_force_and_tangents
+  use beamw_inertia_tangent, only: inertia_step_tangent
   use node_inertia, only: node_inertia_forces
   use system_data, only: system_t
   use system_pattern, only: add_block
@@ -123,8 +123,8 @@ contains
     real(wp), intent(inout) :: values(:)
     real(wp), dimension(body_size) :: v, a, f
     real(wp), dimension(body_size, body_size) :: mass, rate, place
-    real(wp) :: euler(0:3, 2), warping(2)
-    integer :: k, n
+    real(wp) :: euler(0:3, 2), warping(2), turn(3, 3, 2)
+    integer :: k, n, e
 
     force = 0
     do k = 1, masses%bodies
@@ -132,14 +132,18 @@ contains
       call gather(masses, k, velocity, acceleration, v, a)
       if (k <= masses%beams) then
         call gather_ends(masses, k, state, euler, warping)
-        call inertia_force_and_tangents(masses%beam(k), euler, warping, v, a, f, mass, rate, place)
+        do e = 1, 2
+          turn(:, :, e) = shares%turn(:, :, masses%node(2, e, k))
+        end do
+        call inertia_step_tangent(masses%beam(k), euler, warping, v, a, &
+                                  [shares%velocity, shares%acceleration], turn, f, place)
       else
         call other_body(masses, k, state, v(:6), a(:6), f(:6), mass(:6, :6), rate(:6, :6), &
                         place(:6, :6))
+        call add_rates(masses, k, shares, mass, rate, place)
       end if
       call scatter(masses, k, f, force)
       call symmetrize_place(masses, k, f, place)
-      call add_rates(masses, k, shares, mass, rate, place)
       call add_block(system%pattern, masses%block(k), place(:n, :n), values)
     end do
   end subroutine add_inertia
@@ -167,35 +171,23 @@ contains
     end do
   end subroutine symmetrize_place
 
-  !> What an increment changes through velocity and acceleration; columns of rotations go from
-  !> rotation vectors of the step to spins.
+  !> What an increment of a truss or node changes through velocity and acceleration; columns of
+  !> rotations go from rotation vectors of the step to spins.
   pure subroutine add_rates(masses, k, shares, mass, rate, place)
     type(masses_t), intent(in) :: masses
     integer, intent(in) :: k
     type(shares_t), intent(in) :: shares
     real(wp), intent(in), dimension(body_size, body_size) :: mass, rate
     real(wp), intent(inout) :: place(body_size, body_size)
-    real(wp) :: sum_of(body_size, body_size)
-    integer :: e, j, n, spin
+    real(wp), dimension(6, 6) :: both
+    integer :: j
 
-    n = masses%coordinates(k)
-    do j = 1, n
-      sum_of(:n, j) = shares%velocity*rate(:n, j) + shares%acceleration*mass(:n, j)
-    end do
-    do e = 1, 2
-      associate (node => masses%node(2, e, k))
-        do j = 7*e - 6, min(7*e, n)
-          spin = j - (7*e - 4)
-          if (spin >= 1 .and. spin <= 3 .and. node > 0) then
-            associate (t => shares%turn(:, spin, node))
-              place(:n, j) = place(:n, j) + sum_of(:n, 7*e - 3)*t(1) &
-                             + sum_of(:n, 7*e - 2)*t(2) + sum_of(:n, 7*e - 1)*t(3)
-            end associate
-          else
-            place(:n, j) = place(:n, j) + sum_of(:n, j)
-          end if
-        end do
-      end associate
+    both = shares%velocity*rate(:6, :6) + shares%acceleration*mass(:6, :6)
+    associate (node => masses%node(2, 1, k))
+      if (node > 0) both(:, 4:6) = matmul(both(:, 4:6), shares%turn(:, :, node))
+    end associate
+    do j = 1, 6
+      place(:6, j) = place(:6, j) + both(:, j)
     end do
   end subroutine add_rates
 

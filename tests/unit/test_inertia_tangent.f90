@@ -3,7 +3,7 @@ module test_inertia_tangent
   use check, only: run, expect_close
   use rotation, only: rotation_matrix, turned, cross
   use beamw_inertia, only: inertia_t, new_inertia, inertia_mass, inertia_force
-  use beamw_inertia_tangent, only: inertia_force_and_tangents
+  use beamw_inertia_tangent, only: inertia_force_and_tangents, inertia_step_tangent
   use node_inertia, only: node_inertia_t, node_inertia_forces, node_momentum, node_kinetic_energy
   use truss_inertia, only: truss_mass
   use particle_body, only: place_t, no_turn, scattered, unit, some_inertia, some_place, moved
@@ -19,6 +19,7 @@ contains
     call run("inertia tangent: derivatives to the velocity of a beam", beam_rate)
     call run("inertia tangent: derivatives to the place of a beam", beam_place)
     call run("inertia tangent: turned forces are the derivative to a turn of all", turned_beam)
+    call run("inertia tangent: that of a step is the sum of its parts", step_of_beam)
     call run("inertia tangent: derivatives of a node", node_tangents)
     call run("inertia tangent: a node's momentum and energy change by force and power", node_power)
     call run("inertia tangent: a free symmetric top precesses", free_top)
@@ -160,6 +161,35 @@ contains
     node%tensor = reshape([1.9_wp, 0.3_wp, -0.2_wp, 0.3_wp, 1.1_wp, 0.4_wp, -0.2_wp, 0.4_wp, &
                            2.3_wp], [3, 3])
   end function some_node
+
+  !> place + (3 rate + 7 mass) T with any T of the spins; to round-off of the sums.
+  subroutine step_of_beam()
+    type(inertia_t) :: inertia
+    type(place_t) :: place
+    real(wp), dimension(7, 2) :: v, a, f, wanted
+    real(wp), dimension(14, 14) :: m, rate, k, t, tangent, terms
+    real(wp) :: turn(3, 3, 2)
+    integer :: option, i, e
+
+    do option = 0, 4
+      inertia = sample(option)
+      call sample_motion(option + 1, place, v, a)
+      turn = reshape(scattered(18, option + 40), [3, 3, 2])
+      t = 0
+      do i = 1, 14
+        t(i, i) = 1
+      end do
+      do e = 1, 2
+        t(7*e - 3:7*e - 1, 7*e - 3:7*e - 1) = turn(:, :, e)
+      end do
+      call inertia_force_and_tangents(inertia, place%euler, place%alpha, v, a, wanted, m, rate, k)
+      call inertia_step_tangent(inertia, place%euler, place%alpha, v, a, [3.0_wp, 7.0_wp], turn, &
+                                f, tangent)
+      terms = abs(k) + matmul(3*abs(rate) + 7*abs(m), abs(t))
+      call expect_close(f, wanted, 1.0e-14_wp*maxval(abs(wanted)), "forces")
+      call expect_close(tangent, k + matmul(3*rate + 7*m, t), 1.0e-14_wp*maxval(terms), "tangent")
+    end do
+  end subroutine step_of_beam
 
   !> As for the beam.
   subroutine node_tangents()
