@@ -79,7 +79,7 @@ contains
     call new_dynamics(system, masses, iterate, new_scheme(analysis%spectral_radius), &
                       model%rayleigh(1), passage%motion, error)
     if (analysis%iterations > 0) passage%motion%iterations = analysis%iterations
-    passage%motion%stabilised = analysis%stabilised
+    passage%motion%stabilised = analysis%stabilised .and. system%multipliers > 0
     if (system%multipliers > 0 .and. analysis%spectral_radius >= 1 .and. &
         .not. analysis%stabilised) then
       call recorder%remark("warning: RHOINF 1 with held strains and STABILISED OFF: their "// &

@@ -42,7 +42,7 @@ module dynamic_equilibrium
   real(wp), parameter :: near = 1.0e-2_wp
 
   !> After an increment this small strains are linear in it to round-off, and their forces to this
-  !> part of them: nothing is evaluated again.
+  !> part of them: only elements with held strains are evaluated again.
   real(wp), parameter :: linear = 1.0e-9_wp
 
   !> An increment this large, in lengths of the model or radians, is no solution.
@@ -260,6 +260,12 @@ contains
     type(flow_t), intent(in) :: next
     integer :: i
 
+    if (self%stabilised .or. .not. self%iterate%keeps_matrix) then
+      do i = 1, self%system%nodes
+        self%shares%turn(:, :, i) = &
+          inverse_tangent(increment(node_coordinates*i - 3:node_coordinates*i - 1))
+      end do
+    end if
     self%iterate%velocity = next%velocity
     call assemble(self%system, level, self%iterate)
     if (self%iterate%invalid > 0) return
@@ -269,10 +275,6 @@ contains
                           self%iterate%inertial)
       return
     end if
-    do i = 1, self%system%nodes
-      self%shares%turn(:, :, i) = &
-        inverse_tangent(increment(node_coordinates*i - 3:node_coordinates*i - 1))
-    end do
     call add_inertia(self%system, self%masses, self%shares, self%iterate%state, next%velocity, &
                      next%acceleration + self%mass_damping*next%velocity, self%iterate%inertial, &
                      self%iterate%values)

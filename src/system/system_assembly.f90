@@ -36,7 +36,8 @@ module system_assembly
     real(wp) :: velocity_share = 0.0_wp     !< change of the velocities with the coordinates [1/T]
     real(wp), allocatable :: inertial(:)    !< by coordinate: inertia forces, of a motion in time
     logical :: keeps_matrix = .false.       !< the next assembly leaves `values` and `noise` alone
-    logical :: keeps_strains = .false.      !< and strains and Jacobian as `advance` left them
+    !> and takes strains and Jacobian as `advance` left them, of elements that hold no strain
+    logical :: keeps_strains = .false.
     integer :: invalid = 0                  !< an element rotated beyond its range; 0: none
   end type iterate_t
 
@@ -119,12 +120,13 @@ contains
     real(wp), dimension(max_strains) :: strain, stress
     real(wp) :: law(max_strains**2), tangent(max_coordinates**2)
     integer :: first, last, n
-    logical :: valid
+    logical :: valid, holds
 
     n = element%strains
     first = system%first(e) + 1
     last = system%first(e + 1)
-    if (iterate%keeps_strains) then
+    holds = any(element%fixed)
+    if (iterate%keeps_strains .and. .not. holds) then
       strain(:n) = iterate%strain(first:last)
     else
       stress = 0
@@ -141,7 +143,7 @@ contains
     stress(:n) = stress(:n) + system%initial_stress(first:last)
     iterate%elastic(first:last) = stress(:n)
     if (allocated(iterate%velocity)) then
-      if (element%damped .or. e > system%members) then
+      if (element%damped .or. holds .or. e > system%members) then
         call add_damping(element, first, jacobian, iterate, law)
       end if
       if (element%damped) stress(:n) = stress(:n) + iterate%viscous(first:last)
