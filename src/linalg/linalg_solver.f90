@@ -1,7 +1,7 @@
 !> Solve a sparse linear system, symmetric indefinite or general, regular or singular:
 !> equilibration, then a dense factorization for few unknowns, MUMPS for many; of general matrices
-!> one in a band where the unknowns have an order that makes it narrow, as in chains of beams. Should
-!> the matrix prove singular there, the other two look at it again: they name null pivots.
+!> one in a band where the unknowns have an order that makes it narrow, as in chains of beams.
+!> Should the matrix prove singular there, the other two look at it again: they name null pivots.
 !>
 !> Call `prepare` once per pattern, `factorize` once per matrix, `solve` once per right-hand side,
 !> `free` at the end. A singular matrix is no error: see `null_pivots`.

@@ -28,7 +28,7 @@ module system_assembly
     real(wp), allocatable :: internal(:)    !< by coordinate: forces of the strains' stresses
     real(wp), allocatable :: constraint(:)  !< by coordinate: forces of the multipliers
     real(wp), allocatable :: external(:)    !< by coordinate: loads
-    real(wp), allocatable :: noise(:)       !< by coordinate: round-off to expect in the forces, at rest
+    real(wp), allocatable :: noise(:)       !< by coordinate: round-off of the forces, at rest only
     real(wp), allocatable :: values(:)      !< entries of the matrix
     !> Only of a motion in time, else not allocated: velocities by coordinate, given; rates of the
     !> strains and their viscous stress resultants, found.

@@ -188,8 +188,9 @@ contains
     call judge%free()
   end subroutine test_singular
 
-  !> A chain of beams in bending, unequal so that round-off hides the zeros, of ten to a thousand elements, free: null pivots
-  !> are found, and are those found without a band; the same chain on a soft ground is regular.
+  !> A free chain of beams in bending, unequal so that round-off hides the zeros, of ten to a
+  !> thousand elements: null pivots are found, and are those found without a band; the same chain on
+  !> a soft ground is regular.
   subroutine test_free_chain()
     type(solver_t) :: solver, judge
     type(error_t), allocatable :: error
