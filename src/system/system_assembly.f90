@@ -151,7 +151,7 @@ contains
     call add_forces(system, element, first, jacobian, stress, iterate)
     if (iterate%keeps_matrix) return
     call add_stiffness(element, jacobian, law, tangent)
-    if (.not. allocated(iterate%velocity)) call add_noise(element, tangent, iterate)
+    if (.not. allocated(iterate%velocity)) call add_noise(element, first, jacobian, tangent, iterate)
     call add_element(system, e, element, tangent, jacobian, iterate%values)
   end subroutine assemble_element
 
@@ -220,19 +220,25 @@ contains
     end do
   end subroutine add_stiffness
 
-  !> Round-off to expect in the forces of an element.
-  pure subroutine add_noise(element, tangent, iterate)
+  !> Round-off to expect in the forces of an element: from its coordinates by the tangent, and from
+  !> the stresses and multipliers that the forces add up.
+  pure subroutine add_noise(element, first, jacobian, tangent, iterate)
     class(element_t), intent(in) :: element
+    integer, intent(in) :: first
+    real(wp), intent(in) :: jacobian(element%strains, element%coordinates)
     real(wp), intent(in) :: tangent(element%coordinates, element%coordinates)
     type(iterate_t), intent(inout) :: iterate
-    real(wp) :: size_of(max_coordinates)
+    real(wp) :: size_of(max_coordinates), stress(max_strains)
     integer :: j, n
 
     n = element%coordinates
     call coordinate_sizes(element, iterate%state, size_of)
+    stress(:element%strains) = epsilon(1.0_wp)* &
+                               abs(iterate%stress(first:first + element%strains - 1))
     do j = 1, n
       associate (noise => iterate%noise(element%coordinate(j)))
-        noise = noise + dot_product(abs(tangent(:, j)), size_of(:n))
+        noise = noise + dot_product(abs(tangent(:, j)), size_of(:n)) &
+                + dot_product(abs(jacobian(:, j)), stress(:element%strains))
       end associate
     end do
   end subroutine add_noise

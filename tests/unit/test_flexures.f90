@@ -102,14 +102,22 @@ contains
     call expect_close(memory%record(8)%compliance(1, 1, 1), 2.85191466e-4_wp, 3.0e-8_wp, "along")
   end subroutine guide_warping
 
-  !> At first 2EI/L about the crossing; at 20 degrees moment and way of the point that was there.
+  !> At first 2EI/L about the crossing, also where the loads are so small that round-off of the
+  !> constraints' forces is more than the tolerance of them; at 20 degrees moment and way of the
+  !> point that was there.
   subroutine cross_hinge()
     type(memory_t) :: memory
+    real(wp), parameter :: angle(4) = [1.0e-3_wp, 9.0e-4_wp, 5.0e-4_wp, 1.0e-5_wp]
+    character(len=16) :: setting
+    integer :: i
 
-    call solve("cross_hinge", [character(len=16) :: "angle=1e-3"], memory)
-    if (memory%steps /= 8) return
-    call expect_close(memory%results(8)%reaction(6, 5)/1.0e-3_wp, 2*e*i_thin/length, &
-                      1.0e-4_wp*2*e*i_thin/length, "stiffness")
+    do i = 1, size(angle)
+      write (setting, "('angle=', es9.3)") angle(i)
+      call solve("cross_hinge", [setting], memory)
+      if (memory%steps /= 8) return
+      call expect_close(memory%results(8)%reaction(6, 5)/angle(i), 2*e*i_thin/length, &
+                        1.0e-4_wp*2*e*i_thin/length, "stiffness")
+    end do
     call solve("cross_hinge", [character(len=16) :: "n=16"], memory)
     if (memory%steps /= 8) return
     associate (now => memory%results(8), c => memory%record(8)%compliance(:, :, 1))
