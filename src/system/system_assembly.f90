@@ -151,7 +151,9 @@ contains
     call add_forces(system, element, first, jacobian, stress, iterate)
     if (iterate%keeps_matrix) return
     call add_stiffness(element, jacobian, law, tangent)
-    if (.not. allocated(iterate%velocity)) call add_noise(element, first, jacobian, tangent, iterate)
+    if (.not. allocated(iterate%velocity)) then
+      call add_noise(element, first, jacobian, tangent, iterate)
+    end if
     call add_element(system, e, element, tangent, jacobian, iterate%values)
   end subroutine assemble_element
 
