@@ -8,7 +8,6 @@ module test_output_compare
   use program_runs, only: outcome_t, run_spar, scratch, make_file
   use result_samples, only: sample_t, new_sample, write_sample
   use output_compare, only: compare_files
-  use output_hdf5, only: hdf5_file_t, about_t
   use output_differences, only: differences_t, tolerance_t
   implicit none
   private
@@ -24,7 +23,6 @@ contains
     call run("compare: one changed value", test_value)
     call run("compare: round-off beside large entries of its dimension", test_round_off)
     call run("compare: round-off in a mode that does not strain", test_idle_mode)
-    call run("compare: round-off beside what a number follows from", test_scales)
     call run("compare: whole numbers and texts are exact", test_exact)
     call run("compare: missing and extra datasets", test_missing)
     call run("compare: one more step", test_step)
@@ -161,58 +159,6 @@ contains
     call compare(first, second, found)
     call expect_one(found, eigen//"modes/elements/strain", "value", "[0, 1]")
   end subroutine test_idle_mode
-
-  !> A model 4 long: a force is measured against moments/4, a reaction against loads, a strain against
-  !> 1e-5*4; with the tolerance 1e-6 each by 1e-9.
-  subroutine test_scales()
-    type(differences_t) :: found
-
-    call write_forces("first.h5", 0.0_wp, 0.0_wp, 0.0_wp)
-    call write_forces("second.h5", 2.0e-8_wp, 0.9e-7_wp, 3.0e-14_wp)
-    call compare_written(found)
-    call expect(found%all == 0, "round-off")
-    call write_forces("second.h5", 3.0e-8_wp, 0.0_wp, 0.0_wp)
-    call compare_written(found)
-    call expect_one(found, static//"forces", "value", "[0, 0]")
-    call write_forces("second.h5", 0.0_wp, 1.1e-7_wp, 0.0_wp)
-    call compare_written(found)
-    call expect_one(found, static//"nodes/reaction", "value", "[0]")
-    call write_forces("second.h5", 0.0_wp, 0.0_wp, 5.0e-14_wp)
-    call compare_written(found)
-    call expect_one(found, static//"strain", "value", "[0]")
-  end subroutine test_scales
-
-  !> Two nodes, a moment of 100 beside a force, a load of 100 beside a reaction, and a strain.
-  subroutine write_forces(name, force, reaction, strain)
-    character(len=*), intent(in) :: name
-    real(wp), intent(in) :: force, reaction, strain
-    type(hdf5_file_t) :: file
-    type(error_t), allocatable :: error
-
-    call file%create(scratch(name), error)
-    call file%group("model")
-    call file%group("model/nodes")
-    call file%write("model/nodes/position", reshape([0, 0, 0, 0, 4, 3]*1.0_wp, [3, 2]), &
-                    about_t("L", "node; X Y Z", ""))
-    call file%group("analysis")
-    call file%group("analysis/01_static")
-    call file%group(static//"nodes")
-    call file%write(static//"forces", reshape([force, 100.0_wp], [2, 1]), about_t("F FL", "", ""))
-    call file%write(static//"nodes/reaction", [reaction], about_t("F", "", ""))
-    call file%write(static//"nodes/load", [100.0_wp], about_t("F", "", ""))
-    call file%write(static//"strain", [strain], about_t("L", "", ""))
-    call file%close(error)
-    call expect(.not. allocated(error), "it is written")
-  end subroutine write_forces
-
-  subroutine compare_written(found)
-    type(differences_t), intent(out) :: found
-    type(error_t), allocatable :: error
-
-    call compare_files(scratch("first.h5"), scratch("second.h5"), tolerance_t(), [string_t ::], &
-                       found, error)
-    call expect(.not. allocated(error), "they are read")
-  end subroutine compare_written
 
   subroutine test_missing()
     type(sample_t) :: first, second

@@ -358,7 +358,8 @@ contains
     call get_reals(path, "analysis/03_buckling/modes/nodes/displacement", mode, extents)
     i = 3*n*(k + 2)
     u = motion(i + 3*n - 2:i + 3*n)
-    call expect_close(u, mode(4:6), single*maxval(abs(mode)), "the tip in a mode of the deformed state")
+    call expect_close(u, mode(4:6), single*maxval(abs(mode)), &
+                      "the tip in a mode of the deformed state")
   end subroutine test_modes
 
   !> Euler's column in shear-rigid bending about the weak axis: with the amplitude 1 the moment in
