@@ -21,8 +21,8 @@ contains
     call run("compare: round-off beside what a number follows from", test_scales)
   end subroutine run_output_scales_tests
 
-  !> A model 4 long: a force is measured against moments/4, a reaction against loads, strain against
-  !> 1e-5*4; with the tolerance 1e-6 each by 1e-9.
+  !> A model 4 long: forces are measured against moments/4, reactions against loads, strains
+  !> against 1e-5*4; with the tolerance 1e-6 each by 1e-9.
   subroutine test_scales()
     type(differences_t) :: found
 
