@@ -47,7 +47,8 @@ contains
 
     call solve("joint_modes", "EIGEN MODES 1", path)
     call get_reals(path, "analysis/01_eigen/eigenvalue", square, extents)
-    call expect_close(square, [(spring/arm**2 + ea/rod)/mass], 1.0e-12_wp*square(1), "omega squared")
+    call expect_close(square, [(spring/arm**2 + ea/rod)/mass], 1.0e-12_wp*square(1), &
+                      "omega squared")
     call get_reals(path, "analysis/01_eigen/modes/nodes/displacement", u, extents)
     call expect_close(u(5), u0, 1.0e-14_wp, "node 2 moves across")
     call get_reals(path, "analysis/01_eigen/modes/joints/strain", strain, extents)
