@@ -97,9 +97,9 @@ contains
     call expect(first%output /= second%output, "a changed value shows")
   end subroutine test_round_off
 
-  !> Kernels of BLAS and of the mathematical library without fused products, as on an old processor
-  !> (where there is a choice of them): forces beside moments, rigid strains, reactions beside moments,
-  !> warping of sections that do not warp. compare agrees.
+  !> Kernels of BLAS and of the mathematical library without fused products, as on an old
+  !> processor (where there is a choice of them): forces beside moments, rigid strains, reactions
+  !> beside moments. compare agrees.
   subroutine test_processor()
     character(len=29), parameter :: deck(5) = [character(len=29) :: &
       "decks/four_bar", "tests/cases/static/rollup", "tests/cases/path/lateral", &
