@@ -127,7 +127,7 @@ contains
       "  --only PATH        compare this dataset or group; may be repeated", &
       "  --json             as JSON", &
       "", &
-      "NaN differs from everything. What is below R/1000 of the largest entry of a dataset, or of", &
+      "NaN differs from everything. What is below R/1000 of the largest entry of a dataset or of", &
       "what it follows from, counts as round-off (docs/results.md). Whole numbers and texts have", &
       "to be equal.", &
       "Modes are compared up to their sign, those of equal eigenvalues as the space they span.", &
