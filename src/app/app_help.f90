@@ -143,8 +143,8 @@ contains
       "", &
       "  --digits N         digits of a number; default 6", &
       "", &
-      "No digit is printed below 1e-(N+3) of the largest entry of a dataset, or of what it follows", &
-      "from, so that round-off does not show (docs/results.md)."
+      "No digit is printed below 1e-(N+3) of the largest entry of a dataset or of what it", &
+      "follows from, so that round-off does not show (docs/results.md)."
   end subroutine print_digest
 
   subroutine print_info(unit)
