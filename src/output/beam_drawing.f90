@@ -155,7 +155,7 @@ contains
   !> Section forces in the cells, linear along the beams; bars have a normal force, dots none.
   pure subroutine draw_forces(mesh, force_p, force_q, joint_stress, force)
     type(mesh_t), intent(in) :: mesh
-    real(wp), intent(in), contiguous :: force_p(:, :), force_q(:, :)   !< (7, members) N Vy Vz T My Mz B
+    real(wp), intent(in), contiguous :: force_p(:, :), force_q(:, :) !< (7, members) N ... B
     real(wp), intent(in) :: joint_stress(:, :)         !< (modes, joints)
     real(sp), intent(out), contiguous :: force(:, :)   !< (7, cells)
     integer :: i, beams
@@ -176,7 +176,7 @@ contains
   !> bars; 0 where the section is unknown.
   pure subroutine draw_stress(mesh, force_p, force_q, joint_stress, stress)
     type(mesh_t), intent(in) :: mesh
-    real(wp), intent(in), contiguous :: force_p(:, :), force_q(:, :)   !< (7, members) N Vy Vz T My Mz B
+    real(wp), intent(in), contiguous :: force_p(:, :), force_q(:, :) !< (7, members) N ... B
     real(wp), intent(in) :: joint_stress(:, :)         !< (modes, joints)
     real(sp), intent(out), contiguous :: stress(:)     !< (points) [F L^-2]
     integer :: e, n
