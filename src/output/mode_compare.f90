@@ -108,8 +108,8 @@ contains
   end function equal_to
 
   !> Motions of all modes of both files, a column each, every kind scaled by its largest entry or,
-  !> where that is round-off, by what the others are with the model's length; no columns if the files'
-  !> motions have not the same shape.
+  !> where that is round-off, by what the others are with the model's length; no columns if
+  !> the files' motions have not the same shape.
   subroutine read_motion(a, b, length, group, modes, x, y, error)
     type(reader_t), intent(in) :: a, b
     real(wp), intent(in) :: length

@@ -8,7 +8,8 @@ module output_handle
                   h5fcreate_f, h5fclose_f, h5fflush_f, h5pcreate_f, h5pclose_f, &
                   h5pset_libver_bounds_f, h5pset_fclose_degree_f, h5pset_obj_track_times_f, &
                   h5pset_link_phase_change_f, h5pset_fill_time_f, h5d_fill_time_never_f, &
-                  h5gcreate_f, h5gclose_f, h5acreate_f, h5awrite_f, h5aclose_f, h5screate_f, h5screate_simple_f, &
+                  h5gcreate_f, h5gclose_f, h5acreate_f, h5awrite_f, h5aclose_f, h5screate_f, &
+                  h5screate_simple_f, &
                   h5sclose_f, h5dcreate_f, h5dwrite_f, h5tcopy_f, h5tset_size_f, &
                   h5tset_strpad_f, h5tset_cset_f, h5f_acc_trunc_f, h5f_libver_v18_f, &
                   h5f_close_strong_f, h5f_scope_global_f, h5p_file_create_f, h5p_file_access_f, &

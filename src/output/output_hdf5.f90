@@ -1,4 +1,4 @@
-!> What is written into a file of the HDF5 library: attributes, and datasets that say what they hold.
+!> What is written into a file of the HDF5 library: attributes, and datasets that say what they are.
 module output_hdf5
   use, intrinsic :: iso_c_binding, only: c_ptr, c_null_ptr, c_loc, c_char, c_null_char
   use hdf5, only: hid_t, hsize_t, h5oopen_f, h5oclose_f, h5aexists_f, h5adelete_f, h5dclose_f, &

@@ -1,5 +1,5 @@
-!> What the entries of a dataset are measured against: how large others of their kind are. Below that
-!> by many digits they are round-off, which no two machines have in common.
+!> What the entries of a dataset are measured against: how large others of their kind are. Below
+!> that by many digits they are round-off, which no two machines have in common.
 module output_scales
   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
   use kinds, only: wp, i8
