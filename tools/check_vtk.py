@@ -6,8 +6,8 @@
 
 Where a point has to be is worked out anew from /model and /analysis: at both ends of every beam
 the node's displacement and rotation carry the section's corners, and its warping moves them by
--omega alpha along the beam; trusses are straight between their nodes. Of motions in time some states
-are drawn only: which is worked out from their times. The program is $SPAR_PROGRAM or build/spar. Called by `make check-vtk`,
+-omega alpha along the beam; trusses are straight between their nodes, the nodes of other joints are
+dots. Of motions in time some states are drawn only: which is worked out from their times. The program is $SPAR_PROGRAM or build/spar. Called by `make check-vtk`,
 which installs vtk, h5py and numpy.
 """
 import os
@@ -26,9 +26,10 @@ from vtkmodules.vtkIOHDF import vtkHDFReader
 from drawn_model import MODE, Mode, Model, State, expected_steps, from_vectors
 
 ROOT = Path(__file__).resolve().parents[1]
-TOLERANCE = 1e-9         # of the model's size: VTK and HDF5 keep double precision
-SINGLE = 5e-7            # of the largest value: fields kept in single precision
-LINE, POLYGON, QUAD = 3, 7, 9
+TOLERANCE = 1e-9         # of the model's size: points are kept in double precision
+ROUNDED = 2.0**-24       # of the largest value: displacements are rounded to single precision
+SINGLE = 5e-7            # of the largest value: the same, of what single precision is computed with
+VERTEX, LINE, POLYGON, QUAD = 1, 3, 7, 9
 
 # What it is, deck, settings, drawn states, modes.
 CASES = [
@@ -44,6 +45,7 @@ CASES = [
     ("frame, two patterns", "../../decks/frame.deck", {}, 13, 0),
     ("rigid links", "../../decks/chain.deck", {}, 4, 0),
     ("trusses, with and without section", "drawing/braced.deck", {}, 3, 9),
+    ("joints, at rest, in modes and in motion", "drawing/joints.deck", {}, 23, 4),
     ("motion in time, every third step drawn", "drawing/swing.deck", {}, 137, 0),
     ("the same with steps by their error", "drawing/swing.deck", {"rule": "TOL", "value": 1e-5}, None, 0),
     ("many lines, one piece each", "../bench/cantilever.deck", {"n": 600, "steps": 2}, 2, 0),
@@ -103,12 +105,14 @@ class Checks:
 def check_cells(checks, grid, points):
     """Cells are of known types, have size, use all points, and no point twice."""
     cells, types = cells_of(grid)
-    checks.true("cells: types", set(types) <= {LINE, POLYGON, QUAD})
+    checks.true("cells: types", set(types) <= {VERTEX, LINE, POLYGON, QUAD})
     used = np.unique(np.concatenate(cells))
     checks.true("cells: all points are used", np.array_equal(used, np.arange(len(points))))
     for ids, kind in zip(cells, types):
         place = points[ids] - points[ids[0]]
-        if kind == LINE:
+        if kind == VERTEX:
+            measure, count = 1, len(ids) == 1
+        elif kind == LINE:
             measure, count = np.linalg.norm(place[1]), len(ids) == 2
         else:  # twice the area
             measure = np.linalg.norm(np.cross(place[1:-1], place[2:]).sum(axis=0))
@@ -117,7 +121,9 @@ def check_cells(checks, grid, points):
 
 
 def check_initial(checks, model, points):
-    """Sections stand evenly along the straight beams, trusses reach from node to node."""
+    """Sections stand evenly along the straight beams, trusses reach from node to node, dots are nodes."""
+    dots = len(points) - len(model.dot)
+    checks.below("initial dots", points[dots:] - model.position[model.dot], TOLERANCE * model.size)
     for b, ids in model.bars(len(points)):
         checks.below("initial points of trusses", points[ids] - model.position[model.bar_node[b]],
                      TOLERANCE * model.size)
@@ -132,6 +138,8 @@ def check_initial(checks, model, points):
 def check_motion(checks, model, motion, fields, points, initial):
     """Points and displacements at both ends of all beams and trusses."""
     places = points + fields["displacement"]
+    rounded = TOLERANCE * model.size + ROUNDED * np.abs(fields["displacement"]).max()
+    check_dots(checks, model, motion, fields, rounded)
     for b, ids in model.bars(len(points)):
         nodes = model.bar_node[b]
         base = model.position[nodes]
@@ -139,7 +147,7 @@ def check_motion(checks, model, motion, fields, points, initial):
             base = base + motion.about.motion[nodes]
         checks.below("points of trusses", points[ids] - base, TOLERANCE * model.size)
         checks.below("displacement of trusses", fields["displacement"][ids] - motion.motion[nodes],
-                     TOLERANCE * model.size)
+                     rounded)
         checks.true("rotation of trusses", not fields["rotation"][ids].any())
     for e, at in model.beams(len(points)):
         for end in (0, 1):
@@ -153,15 +161,31 @@ def check_motion(checks, model, motion, fields, points, initial):
             ids = at[-end]
             checks.below("points", points[ids] - (base if turned is None else initial[ids]),
                          TOLERANCE * model.size)
-            checks.below("displacement", fields["displacement"][ids] - wanted,
-                         TOLERANCE * model.size)
-            checks.below("deformed points", places[ids] - base - wanted, TOLERANCE * model.size)
+            checks.below("displacement", fields["displacement"][ids] - wanted, rounded)
+            checks.below("deformed points", places[ids] - base - wanted, rounded)
             rotation = fields["rotation"][ids].astype(float)
             if turned is None:
                 spin = motion.spin[model.node[e, end, 1]]
                 checks.below("spin of modes", rotation - spin, SINGLE * np.abs(motion.spin).max())
             else:
                 checks.below("rotation", from_vectors(rotation) - turned, 4 * SINGLE)
+
+
+def check_dots(checks, model, motion, fields, rounded):
+    """Displacement and rotation of the dots are those of the joints' nodes."""
+    if not model.dot:
+        return
+    ids = slice(len(fields["displacement"]) - len(model.dot), None)
+    checks.below("displacement of dots", fields["displacement"][ids] - motion.motion[model.dot], rounded)
+    rotation = fields["rotation"][ids].astype(float)
+    turns = np.array(model.dot_turn) >= 0
+    nodes = np.array(model.dot_turn)[turns]
+    checks.true("dots without rotation", not rotation[~turns].any())
+    if isinstance(motion, Mode):
+        checks.below("spin of dots", rotation[turns] - motion.spin[nodes],
+                     SINGLE * max(np.abs(motion.spin).max(), 1e-30))
+    else:
+        checks.below("rotation of dots", from_vectors(rotation[turns]) - motion.turn[nodes], 4 * SINGLE)
 
 
 def end_forces(model, data, row, mode):
@@ -196,7 +220,8 @@ def check_forces(checks, model, ends, grid, fields):
             if c[4] > 0:
                 wanted = wanted - b * model.omega[e] / c[4]
             checks.below("axial stress", stress[ids] - wanted, SINGLE * scale)
-    beams = grid.GetNumberOfCells() - len(model.bar)
+    beams = grid.GetNumberOfCells() - len(model.bar) - len(model.dot)
+    checks.true("dots have no forces", not fields["section_force"][beams + len(model.bar):].any())
     for ids, force in zip(cells_of(grid)[0][:beams], fields["section_force"]):
         e, xi = owner[ids[0]], middle[ids].mean()
         checks.true("cells: of one beam", (owner[ids] == e).all())
@@ -208,7 +233,7 @@ def check_bars(checks, model, normal, grid, fields):
     cells, forces = cells_of(grid)[0], fields["section_force"]
     largest = max(np.abs(normal).max(initial=0.0), 1e-30)
     for b, ids in model.bars(grid.GetNumberOfPoints()):
-        at = b - len(model.bar)
+        at = b - len(model.bar) - len(model.dot)
         checks.true("cells of trusses", list(cells[at]) == list(ids))
         wanted = np.append(normal[model.bar[b]], np.zeros(6))
         checks.below("forces of trusses", forces[at] - wanted, SINGLE * largest)
@@ -254,9 +279,10 @@ def check_file(path):
             if row >= 0:
                 ends = end_forces(model, group, row, motion is not state)
                 check_forces(checks, model, ends, grid, fields)
-                normal = np.zeros(model.joints)  # modes have none
-                if motion is state and model.joints:
-                    normal = group["joints/stress"][row * model.joints:][:model.joints, 0]
+                normal = np.zeros(0)
+                if model.joints:
+                    stress = "joints/stress" if motion is state else "modes/joints/stress"
+                    normal = group[stress][row * model.joints:][:model.joints, 0]
                 check_bars(checks, model, normal, grid, fields)
             check_motion(checks, model, motion, fields, points, initial)
         checks.true("all states and modes are there, once",
@@ -289,8 +315,8 @@ def check(path, what, count):
     checks, states, modes = check_file(path)
     for name, ratio in checks.worst.items():
         count.add(what, name, ratio)
-    print(f"{what}: {states} states, {modes} modes, {len(checks.worst)} checks, points within"
-          f" {TOLERANCE * checks.worst.get('deformed points', np.inf):.1e} of the model's size")
+    print(f"{what}: {states} states, {modes} modes, {len(checks.worst)} checks, deformed points within"
+          f" {checks.worst.get('deformed points', np.inf):.2g} of what is allowed")
     return states, modes
 
 

@@ -31,6 +31,7 @@ class Model:
 
     def __init__(self, file):
         self.position = file["model/nodes/position"][()]
+        self.placed = file["model/nodes/kind"][:, 0] == 1
         elements = file["model/elements"]
         self.node = elements["nodes"][()].reshape(-1, 2, 3)
         self.triad = elements["triad"][()].reshape(-1, 3, 3)  # rows eX, eY, eZ
@@ -61,20 +62,34 @@ class Model:
         self.bar = [j for j, kind in enumerate(kinds) if kind == "TRUSS"]
         self.bar_node = [joints["nodes"][j, [0, 2]] for j in self.bar]
         names = [joints["section"].asstr()[j].strip("\0") for j in self.bar]
+        self.dot, self.dot_turn = [], []
+        if joints is not None:
+            self.read_dots(joints["nodes"][()].reshape(-1, 2, 2), kinds)
         self.bar_area = [constants[name][0] if name else 0.0 for name in names]
+
+    def read_dots(self, nodes, kinds):
+        """Nodes of joints that have a place, in their order, and those by which they turn (-1: not)."""
+        found = {}
+        for ends, kind in zip(nodes, kinds):
+            for place, turn in () if kind in ("TRUSS", "GEAR") else ends:
+                at = place if place >= 0 else turn
+                if self.placed[at]:
+                    found[at] = turn
+        self.dot = sorted(found)
+        self.dot_turn = [found[at] for at in self.dot]
 
     def beams(self, points):
         """Element, and the points of each of its stations, (stations, corners)."""
         first = 0
-        stations = (points - 2 * len(self.bar)) // max(1, sum(len(c) for c in self.corners))
+        stations = (points - 2 * len(self.bar) - len(self.dot)) // max(1, sum(len(c) for c in self.corners))
         for e, corners in enumerate(self.corners):
             n = len(corners)
             yield e, first + np.arange(stations * n).reshape(stations, n)
             first += stations * n
 
     def bars(self, points):
-        """Truss, and its two points: they are the last."""
-        first = points - 2 * len(self.bar)
+        """Truss, and its two points: they are behind those of the beams."""
+        first = points - 2 * len(self.bar) - len(self.dot)
         for b in range(len(self.bar)):
             yield b, first + 2 * b + np.arange(2)
 

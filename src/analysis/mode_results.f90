@@ -12,7 +12,7 @@ module mode_results
   use system_constants, only: member_rigidity
   use system_assembly, only: iterate_t
   use system_constraints, only: coordinate_scale
-  use system_results, only: result_modes, shear_centre_shift
+  use system_results, only: result_modes, joint_strains, shear_centre_shift
   use system_geometric, only: stress_increments
   use system_linear, only: matrices_t
   implicit none
@@ -36,6 +36,8 @@ module mode_results
     real(wp), allocatable :: warping(:, :)          !< (nodes, modes)
     real(wp), allocatable :: strain(:, :, :)        !< (8, members, modes)
     real(wp), allocatable :: stress(:, :, :)        !< (8, members, modes)
+    real(wp), allocatable :: joint_strain(:, :, :)  !< (6, joints, modes) 0 behind the last strain
+    real(wp), allocatable :: joint_stress(:, :, :)  !< (6, joints, modes)
   end type shapes_t
 
   !> Modes of a BUCKLING or EIGEN analysis, arrays with the mode last.
@@ -53,6 +55,8 @@ module mode_results
     real(wp), allocatable :: warping(:, :)          !< (nodes, modes)
     real(wp), allocatable :: strain(:, :, :)        !< (8, members, modes)
     real(wp), allocatable :: stress(:, :, :)        !< (8, members, modes)
+    real(wp), allocatable :: joint_strain(:, :, :)  !< (6, joints, modes) 0 behind the last strain
+    real(wp), allocatable :: joint_stress(:, :, :)  !< (6, joints, modes)
     real(wp), allocatable :: energy(:, :)           !< (5, modes) shares of the strain energy
     real(wp), allocatable :: participation(:, :)    !< EIGEN: (6, modes)
     real(wp), allocatable :: effective_mass(:, :)   !< EIGEN: (6, modes) [M], [M L^2]
@@ -77,6 +81,8 @@ contains
     allocate (modes%warping(system%nodes, most), modes%energy(energy_kinds, most))
     allocate (modes%strain(result_modes, system%members, most))
     allocate (modes%stress(result_modes, system%members, most))
+    allocate (modes%joint_strain(joint_strains, system%joints, most))
+    allocate (modes%joint_stress(joint_strains, system%joints, most))
   end subroutine new_modes
 
   !> Add a mode: a solution of the system, motion and multipliers.
@@ -110,6 +116,8 @@ contains
       quadrature%warping(:, n) = part%warping(:, 1)
       quadrature%strain(:, :, n) = part%strain(:, :, 1)
       quadrature%stress(:, :, n) = part%stress(:, :, 1)
+      quadrature%joint_strain(:, :, n) = part%joint_strain(:, :, 1)
+      quadrature%joint_stress(:, :, n) = part%joint_stress(:, :, 1)
       modes%energy(:, n) = shares(modes%energy(:, n) + part%energy(:, 1))
     end associate
   end subroutine add_complex_mode
@@ -123,6 +131,8 @@ contains
     allocate (modes%quadrature%warping, mold=modes%warping)
     allocate (modes%quadrature%strain, mold=modes%strain)
     allocate (modes%quadrature%stress, mold=modes%stress)
+    allocate (modes%quadrature%joint_strain, mold=modes%joint_strain)
+    allocate (modes%quadrature%joint_stress, mold=modes%joint_stress)
   end subroutine new_quadrature
 
   pure function shares(energy)
@@ -153,6 +163,7 @@ contains
     end do
     call stress_increments(system, iterate, solution, stress)
     call add_members(model, system, iterate, motion, stress, modes)
+    call add_joints(system, iterate, motion, stress, modes)
   end subroutine add_shape
 
   !> A solution's entries of the coordinates, zero where held.
@@ -186,7 +197,7 @@ contains
     do e = 1, system%members
       associate (element => system%element(e)%e, first => system%first(e), &
                  jacobian => iterate%jacobian(system%jacobian(e) + 1:system%jacobian(e + 1)))
-        strain = mode_strain(element, jacobian, motion)
+        strain = mode_strain(element, jacobian, motion, result_modes)
         force = stress(first + 1:first + result_modes)
       end associate
       product = strain*force
@@ -244,15 +255,38 @@ contains
     end associate
   end function torsion_stiffness
 
-  pure function mode_strain(element, jacobian, motion) result(strain)
+  !> Strains and stresses of the joints.
+  pure subroutine add_joints(system, iterate, motion, stress, modes)
+    type(system_t), intent(in) :: system
+    type(iterate_t), intent(in) :: iterate
+    real(wp), intent(in) :: motion(:), stress(:)
+    type(modes_t), intent(inout) :: modes
+    integer :: j, e
+
+    modes%joint_strain(:, :, modes%modes) = 0
+    modes%joint_stress(:, :, modes%modes) = 0
+    do j = 1, system%joints
+      e = system%members + j
+      associate (element => system%element(e)%e, first => system%first(e), &
+                 jacobian => iterate%jacobian(system%jacobian(e) + 1:system%jacobian(e + 1)), &
+                 n => system%element(e)%e%strains)
+        modes%joint_strain(:n, j, modes%modes) = mode_strain(element, jacobian, motion, n)
+        modes%joint_stress(:n, j, modes%modes) = stress(first + 1:first + n)
+      end associate
+    end do
+  end subroutine add_joints
+
+  !> The first strains of an element.
+  pure function mode_strain(element, jacobian, motion, strains) result(strain)
     class(element_t), intent(in) :: element
     real(wp), intent(in) :: jacobian(element%strains, element%coordinates), motion(:)
-    real(wp) :: strain(result_modes)
+    integer, intent(in) :: strains
+    real(wp) :: strain(strains)
     integer :: j
 
     strain = 0
     do j = 1, element%coordinates
-      strain = strain + jacobian(:result_modes, j)*motion(element%coordinate(j))
+      strain = strain + jacobian(:strains, j)*motion(element%coordinate(j))
     end do
   end function mode_strain
 

@@ -127,8 +127,9 @@ contains
       "  --only PATH        compare this dataset or group; may be repeated", &
       "  --json             as JSON", &
       "", &
-      "NaN differs from everything. What is below R/1000 of the largest entry of a dataset (its", &
-      "columns of one dimension) counts as round-off. Whole numbers and texts have to be equal.", &
+      "NaN differs from everything. What is below R/1000 of the largest entry of a dataset or of", &
+      "what it follows from, counts as round-off (docs/results.md). Whole numbers and texts have", &
+      "to be equal.", &
       "Modes are compared up to their sign, those of equal eigenvalues as the space they span.", &
       "/VTKHDF, /restart and convergence are left out unless --only names them.", &
       "Exit status: 0 no differences, 1 some, 2 usage, 5 a file cannot be read"
@@ -142,8 +143,8 @@ contains
       "", &
       "  --digits N         digits of a number; default 6", &
       "", &
-      "No digit is printed below 1e-(N+3) of the largest entry of a dataset (its columns of", &
-      "one dimension), so that round-off does not show."
+      "No digit is printed below 1e-(N+3) of the largest entry of a dataset or of what it", &
+      "follows from, so that round-off does not show (docs/results.md)."
   end subroutine print_digest
 
   subroutine print_info(unit)

@@ -3,7 +3,8 @@ module beam_drawing
   use kinds, only: wp, sp
   use rotation, only: rotated, turned, rotation_vector
   use section_data, only: axial_stress
-  use beam_curve, only: beam_ends_t, station_t, beam_station, relative_rotation
+  use beam_curve, only: beam_ends_t, beam_curve_t, station_t, new_curve, beam_station, &
+                        relative_rotation
   use beam_mesh, only: mesh_t, profile_t, beam_t
   implicit none
   private
@@ -26,19 +27,19 @@ contains
   pure subroutine draw_motion(mesh, posture, displacement, rotation)
     type(mesh_t), intent(in) :: mesh
     type(posture_t), intent(in) :: posture
-    real(wp), intent(out) :: displacement(:, :), rotation(:, :)   !< (3, points)
+    real(wp), intent(out), contiguous :: displacement(:, :), rotation(:, :)   !< (3, points)
     type(station_t) :: station
-    type(beam_ends_t) :: ends
+    type(beam_curve_t) :: curve
     integer :: e, i, n, corners
 
     do e = 1, size(mesh%beam)
       n = mesh%beam(e)%first
-      ends = ends_of(mesh%beam(e), posture)
+      curve = new_curve(ends_of(mesh%beam(e), posture))
       associate (profile => mesh%profile(mesh%beam(e)%profile))
         corners = size(profile%omega)
         do i = 0, mesh%segments
-          station = beam_station(ends, i/real(mesh%segments, wp))
-          call move_corners(profile, ends%triad, station, displacement(:, n + 1:n + corners))
+          station = beam_station(curve, i/real(mesh%segments, wp))
+          call move_corners(profile, curve%triad, station, displacement(:, n + 1:n + corners))
           rotation(:, n + 1:n + corners) = spread(rotation_vector(station%euler), 2, corners)
           n = n + corners
         end do
@@ -48,6 +49,13 @@ contains
       n = mesh%bar(e)%first
       displacement(:, n + 1:n + 2) = posture%displacement(:, mesh%bar(e)%node)
       rotation(:, n + 1:n + 2) = 0
+    end do
+    do e = 1, size(mesh%dot)
+      associate (node => mesh%dot(e)%node, at => mesh%dot(e)%first + 1)
+        displacement(:, at) = posture%displacement(:, node(1))
+        rotation(:, at) = 0
+        if (node(2) > 0) rotation(:, at) = rotation_vector(posture%euler(:, node(2)))
+      end associate
     end do
   end subroutine draw_motion
 
@@ -68,16 +76,17 @@ contains
     type(profile_t), intent(in) :: profile
     real(wp), intent(in) :: triad(3, 3)
     type(station_t), intent(in) :: station
-    real(wp), intent(out) :: displacement(:, :)   !< (3, corners)
-    real(wp) :: now(3, 3)
+    real(wp), intent(out), contiguous :: displacement(:, :)   !< (3, corners)
+    real(wp) :: now(3, 3), y(3), z(3), out(3)
     integer :: k
 
     now = rotated(station%euler, triad)
+    y = now(:, 2) - triad(:, 2)
+    z = now(:, 3) - triad(:, 3)
+    out = station%warping*now(:, 1)
     do k = 1, size(profile%omega)
-      displacement(:, k) = station%displacement &
-                           + profile%corner(1, k)*(now(:, 2) - triad(:, 2)) &
-                           + profile%corner(2, k)*(now(:, 3) - triad(:, 3)) &
-                           - profile%omega(k)*station%warping*now(:, 1)
+      displacement(:, k) = station%displacement + profile%corner(1, k)*y &
+                           + profile%corner(2, k)*z - profile%omega(k)*out
     end do
   end subroutine move_corners
 
@@ -87,7 +96,7 @@ contains
     type(mesh_t), intent(in) :: mesh
     type(posture_t), intent(in) :: posture
     real(wp), intent(in) :: displacement(:, :), rotation(:, :), warping(:)   !< by node
-    real(wp), intent(out) :: moved(:, :), spin(:, :)                         !< (3, points)
+    real(wp), intent(out), contiguous :: moved(:, :), spin(:, :)             !< (3, points)
     real(wp), dimension(3, size(moved, 2)) :: back, back_spin
     type(posture_t) :: near
     real(wp) :: step, length
@@ -101,6 +110,7 @@ contains
       n = mesh%bar(e)%first
       length = max(length, norm2(mesh%position(:, n + 2) - mesh%position(:, n + 1)))
     end do
+    if (size(mesh%beam) + size(mesh%bar) == 0) length = 1
     step = max(maxval(abs(rotation)), maxval(abs(displacement))/length, &
                maxval(abs(warping))*length, tiny(1.0_wp)/small_angle)
     step = small_angle/step
@@ -142,17 +152,17 @@ contains
     end do
   end subroutine mode_forces
 
-  !> Section forces in the cells, linear along the beams; bars have a normal force.
+  !> Section forces in the cells, linear along the beams; bars have a normal force, dots none.
   pure subroutine draw_forces(mesh, force_p, force_q, joint_stress, force)
     type(mesh_t), intent(in) :: mesh
-    real(wp), intent(in) :: force_p(:, :), force_q(:, :)   !< (7, members) N Vy Vz T My Mz B
+    real(wp), intent(in), contiguous :: force_p(:, :), force_q(:, :) !< (7, members) N ... B
     real(wp), intent(in) :: joint_stress(:, :)         !< (modes, joints)
-    real(sp), intent(out) :: force(:, :)               !< (7, cells)
+    real(sp), intent(out), contiguous :: force(:, :)   !< (7, cells)
     integer :: i, beams
 
-    beams = size(mesh%owner) - size(mesh%bar)
+    beams = size(mesh%owner) - size(mesh%bar) - size(mesh%dot)
+    force(:, beams + 1:) = 0
     do i = 1, size(mesh%bar)
-      force(:, beams + i) = 0
       force(1, beams + i) = real(joint_stress(1, mesh%bar(i)%joint), sp)
     end do
     do i = 1, beams
@@ -166,25 +176,17 @@ contains
   !> bars; 0 where the section is unknown.
   pure subroutine draw_stress(mesh, force_p, force_q, joint_stress, stress)
     type(mesh_t), intent(in) :: mesh
-    real(wp), intent(in) :: force_p(:, :), force_q(:, :)   !< (7, members) N Vy Vz T My Mz B
+    real(wp), intent(in), contiguous :: force_p(:, :), force_q(:, :) !< (7, members) N ... B
     real(wp), intent(in) :: joint_stress(:, :)         !< (modes, joints)
-    real(sp), intent(out) :: stress(:)                 !< (points) [F L^-2]
-    real(wp) :: force(7), xi
-    integer :: e, i, k, n
+    real(sp), intent(out), contiguous :: stress(:)     !< (points) [F L^-2]
+    integer :: e, n
 
-    n = 0
     stress = 0
     do e = 1, size(mesh%beam)
       associate (profile => mesh%profile(mesh%beam(e)%profile))
-        do i = 0, mesh%segments
-          xi = i/real(mesh%segments, wp)
-          force = (1 - xi)*force_p(:, e) + xi*force_q(:, e)
-          do k = 1, size(profile%omega)
-            n = n + 1
-            if (profile%constants%a > 0) stress(n) = real(axial_stress(profile%constants, &
-              profile%corner(:, k), profile%omega(k), force([1, 5, 6, 7])), sp)
-          end do
-        end do
+        n = mesh%beam(e)%first
+        if (profile%constants%a > 0) call stress_beam(profile, force_p(:, e), force_q(:, e), &
+          stress(n + 1:n + (mesh%segments + 1)*size(profile%omega)))
       end associate
     end do
     do e = 1, size(mesh%bar)
@@ -193,5 +195,28 @@ contains
         real(joint_stress(1, mesh%bar(e)%joint)/mesh%bar(e)%area, sp)
     end do
   end subroutine draw_stress
+
+  !> Axial stress at the corners of all stations of a beam.
+  pure subroutine stress_beam(profile, force_p, force_q, stress)
+    type(profile_t), intent(in) :: profile
+    real(wp), intent(in) :: force_p(7), force_q(7)
+    real(sp), intent(out), contiguous :: stress(:)
+    real(wp), dimension(size(profile%omega)) :: p, q
+    real(wp) :: xi
+    integer :: i, k, corners, pieces
+
+    corners = size(profile%omega)
+    pieces = size(stress)/corners - 1
+    do k = 1, corners
+      associate (at => profile%corner(:, k), omega => profile%omega(k))
+        p(k) = axial_stress(profile%constants, at, omega, force_p([1, 5, 6, 7]))
+        q(k) = axial_stress(profile%constants, at, omega, force_q([1, 5, 6, 7]))
+      end associate
+    end do
+    do i = 0, pieces
+      xi = i/real(pieces, wp)
+      stress(i*corners + 1:(i + 1)*corners) = real((1 - xi)*p + xi*q, sp)
+    end do
+  end subroutine stress_beam
 
 end module beam_drawing

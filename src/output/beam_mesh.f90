@@ -1,22 +1,22 @@
 !> The undeformed model as a mesh of VTK: beams as lines or as their sections' outlines swept
-!> along them, trusses as straight lines. Other joints are not drawn.
+!> along them, trusses as straight lines, the nodes of other joints as dots.
 module beam_mesh
   use kinds, only: wp
   use section_data, only: section_constants_t, section_geometry_t, section_open, section_closed
   use beamw_rigidity, only: rigidity_t, shear_compliance
   use beam_curve, only: beam_shape_t
-  use model_data, only: model_t, member_t, mode_flexible, joint_truss
+  use model_data, only: model_t, member_t, mode_flexible, joint_truss, joint_gear
   use system_constants, only: member_rigidity
   implicit none
   private
 
-  public :: mesh_t, profile_t, beam_t, bar_t, new_mesh
+  public :: mesh_t, profile_t, beam_t, bar_t, dot_t, new_mesh
 
   !> Cell types of VTK.
-  integer, parameter, public :: line_cell = 3, polygon_cell = 7, quad_cell = 9
+  integer, parameter, public :: vertex_cell = 1, line_cell = 3, polygon_cell = 7, quad_cell = 9
 
   !> Pieces of a beam at most, without and with outlines; points in all, where that allows more than
-  !> one piece each. Every point costs 60 bytes a step, and writing them a tenth of a run.
+  !> one piece each. Every point costs 50 bytes a step, and writing them a tenth of a run.
   integer, parameter :: line_segments = 4, outline_segments = 3, all_points = 3000
 
   !> What is swept along a beam: closed polygons, or the centroid alone.
@@ -44,16 +44,23 @@ module beam_mesh
     real(wp) :: area = 0.0_wp     !< [L^2], 0 if unknown
   end type bar_t
 
+  !> A node of other joints, if it has a place.
+  type :: dot_t
+    integer :: node(2) = 0        !< translational and rotational, 0: does not turn
+    integer :: first = 0          !< points of the mesh before its own
+  end type dot_t
+
   type :: mesh_t
     integer :: segments = 1                     !< pieces of a beam
     type(profile_t), allocatable :: profile(:)  !< of the sections; the last is a line
     type(beam_t), allocatable :: beam(:)
     type(bar_t), allocatable :: bar(:)
-    real(wp), allocatable :: position(:, :)     !< (3, points), by beam, station, corner; bars [L]
+    type(dot_t), allocatable :: dot(:)
+    real(wp), allocatable :: position(:, :)     !< (3, points), by beam, station, corner; bars; dots
     integer, allocatable :: corners(:)          !< points of the cells from 0, cell by cell
     integer, allocatable :: offset(:)           !< by cell: entries of `corners` before; one more
     integer, allocatable :: kind(:)             !< by cell: type of VTK
-    integer, allocatable :: owner(:)            !< by cell: its beam; the last are the bars
+    integer, allocatable :: owner(:)            !< by cell: its beam; then bars, dots
     real(wp), allocatable :: middle(:)          !< by cell: its place along the beam, 0 to 1
   end type mesh_t
 
@@ -80,7 +87,9 @@ contains
       points = points + (mesh%segments + 1)*size(mesh%profile(mesh%beam(e)%profile)%omega)
     end do
     call new_bars(model, points, mesh%bar)
-    allocate (mesh%position(3, points + 2*size(mesh%bar)))
+    points = points + 2*size(mesh%bar)
+    call new_dots(model, points, mesh%dot)
+    allocate (mesh%position(3, points + size(mesh%dot)))
     call place_points(model, mesh)
     call make_cells(model, mesh)
   end subroutine new_mesh
@@ -145,6 +154,33 @@ contains
     end do
   end subroutine new_bars
 
+  !> The nodes of the joints that are no trusses, each once.
+  pure subroutine new_dots(model, points, dot)
+    type(model_t), intent(in) :: model
+    integer, intent(in) :: points          !< of beams and bars
+    type(dot_t), allocatable, intent(out) :: dot(:)
+    integer :: turning(size(model%node)), i, end, at, n
+
+    turning = -1
+    do i = 1, size(model%joint)
+      associate (joint => model%joint(i))
+        if (any(joint%kind == [joint_truss, joint_gear])) cycle
+        do end = 1, 2
+          at = maxval(joint%node(:, end))
+          if (joint%node(1, end) > 0) at = joint%node(1, end)
+          if (model%node(at)%exists(1)) turning(at) = joint%node(2, end)
+        end do
+      end associate
+    end do
+    allocate (dot(count(turning >= 0)))
+    n = 0
+    do at = 1, size(turning)
+      if (turning(at) < 0) cycle
+      n = n + 1
+      dot(n) = dot_t([at, turning(at)], points + n - 1)
+    end do
+  end subroutine new_dots
+
   pure subroutine new_line(profile)
     type(profile_t), intent(out) :: profile
 
@@ -205,6 +241,9 @@ contains
         mesh%position(:, n + i) = model%node(mesh%bar(e)%node(i))%position
       end do
     end do
+    do e = 1, size(mesh%dot)
+      mesh%position(:, mesh%dot(e)%first + 1) = model%node(mesh%dot(e)%node(1))%position
+    end do
   end subroutine place_points
 
   !> There are no more cells than points and, on average, no more than four corners to a cell.
@@ -239,6 +278,9 @@ contains
     end do
     do e = 1, size(mesh%bar)
       call add_cell(mesh, mesh%bar(e)%first + [0, 1], line_cell, 0, 0.5_wp, cells)
+    end do
+    do e = 1, size(mesh%dot)
+      call add_cell(mesh, [mesh%dot(e)%first], vertex_cell, 0, 0.5_wp, cells)
     end do
     mesh%corners = mesh%corners(:mesh%offset(cells + 1))
     mesh%offset = mesh%offset(:cells + 1)

@@ -5,7 +5,8 @@ module mode_compare
   use errors, only: error_t
   use text, only: to_text
   use output_reader, only: reader_t, dataset_t
-  use output_differences, only: differences_t, tolerance_t, column_scales, index_text
+  use output_differences, only: differences_t, tolerance_t, noise, index_text
+  use output_scales, only: column_scales, get_scales
   implicit none
   private
 
@@ -15,6 +16,9 @@ module mode_compare
   real(wp), parameter :: cluster = 1.0e-6_wp
 
   real(wp), parameter :: round_off = 16*epsilon(1.0_wp)
+
+  !> A kind of motion that is so small beside the others is no part of the shape.
+  real(wp), parameter :: nothing = 1.0e-6_wp
 
   !> What a mode is known by: its motion.
   character(len=*), parameter :: motions(3) = ["nodes/displacement", "nodes/rotation    ", &
@@ -65,14 +69,15 @@ contains
   end function eigenvalue_name
 
   !> Compare a dataset of modes cluster by cluster.
-  subroutine compare_modes(a, b, first, second, tolerance, found, error)
+  subroutine compare_modes(a, b, length, first, second, tolerance, found, error)
     type(reader_t), intent(in) :: a, b
+    real(wp), intent(in) :: length                 !< of the model, 0: unknown
     type(dataset_t), intent(in) :: first, second   !< of equal shape
     type(tolerance_t), intent(in) :: tolerance
     type(differences_t), intent(inout) :: found
     type(error_t), allocatable, intent(out) :: error
     type(dataset_t) :: values
-    real(wp), allocatable :: x(:, :), y(:, :)
+    real(wp), allocatable :: x(:, :), y(:, :), scale(:)
     integer, allocatable :: members(:)
     integer :: i, modes, k
 
@@ -80,12 +85,14 @@ contains
     if (allocated(error)) return
     modes = size(values%value)
     if (modes == 0 .or. size(first%value) == 0) return
-    call read_motion(a, b, group_of(first%path), modes, x, y, error)
+    call read_motion(a, b, length, group_of(first%path), modes, x, y, error)
+    if (.not. allocated(error)) call get_scales(b, length, second, scale, error)
     if (allocated(error)) return
     do i = 1, modes
       members = pack([(k, k=1, modes)], equal_to(values%value, i))
       if (members(1) < i) cycle
-      call compare_cluster(members, x, y, first, second, size(first%value)/modes, tolerance, found)
+      call compare_cluster(members, x, y, first, second, size(first%value)/modes, &
+                           tolerance, noise*scale, found)
     end do
   end subroutine compare_modes
 
@@ -100,38 +107,42 @@ contains
     where (ieee_is_finite(value)) equal = abs(value - value(i)) <= cluster*abs(value(i))
   end function equal_to
 
-  !> Motions of all modes of both files, a column each, every kind scaled by its largest entry;
-  !> no columns if the files' motions have not the same shape.
-  subroutine read_motion(a, b, group, modes, x, y, error)
+  !> Motions of all modes of both files, a column each, every kind scaled by its largest entry or,
+  !> where that is round-off, by what the others are with the model's length; no columns if
+  !> the files' motions have not the same shape.
+  subroutine read_motion(a, b, length, group, modes, x, y, error)
     type(reader_t), intent(in) :: a, b
+    real(wp), intent(in) :: length
     character(len=*), intent(in) :: group
     integer, intent(in) :: modes
     real(wp), allocatable, intent(out) :: x(:, :), y(:, :)
     type(error_t), allocatable, intent(out) :: error
-    type(dataset_t) :: p, q
-    real(wp), allocatable :: upper(:, :), lower(:, :)
-    real(wp) :: scale
+    type(dataset_t) :: p(size(motions)), q(size(motions))
+    real(wp) :: largest(size(motions)), scale, amplitude
     integer :: i
 
     allocate (x(0, modes), y(0, modes))
+    largest = 0
+    amplitude = 0
     do i = 1, size(motions)
       associate (path => group//"/modes/"//trim(motions(i)))
         if (.not. a%has(path)) cycle
         if (.not. b%has(path)) cycle
-        call a%read(path, p, error)
-        if (.not. allocated(error)) call b%read(path, q, error)
+        call a%read(path, p(i), error)
+        if (.not. allocated(error)) call b%read(path, q(i), error)
         if (allocated(error)) return
       end associate
-      if (size(p%value) /= size(q%value)) cycle
-      scale = max(maxval(abs(pack(p%value, ieee_is_finite(p%value)))), &
-                  maxval(abs(pack(q%value, ieee_is_finite(q%value)))))
-      if (.not. scale > 0) cycle
-      upper = x
-      lower = reshape(p%value/scale, [size(p%value)/modes, modes])
-      x = stacked(upper, lower)
-      upper = y
-      lower = reshape(q%value/scale, [size(q%value)/modes, modes])
-      y = stacked(upper, lower)
+      if (size(p(i)%value) /= size(q(i)%value)) cycle
+      largest(i) = max(maxval(abs(pack(p(i)%value, ieee_is_finite(p(i)%value)))), &
+                       maxval(abs(pack(q(i)%value, ieee_is_finite(q(i)%value)))))
+      amplitude = max(amplitude, largest(i)*length**(i - 1))
+    end do
+    do i = 1, size(motions)
+      if (.not. largest(i) > 0) cycle
+      scale = largest(i)
+      if (length > 0) scale = max(scale, nothing*amplitude/length**(i - 1))
+      x = stacked(x, reshape(p(i)%value/scale, [size(p(i)%value)/modes, modes]))
+      y = stacked(y, reshape(q(i)%value/scale, [size(q(i)%value)/modes, modes]))
     end do
   end subroutine read_motion
 
@@ -144,12 +155,13 @@ contains
   end function stacked
 
   !> Modes of one eigenvalue: first whether they are the same motion, then the values.
-  subroutine compare_cluster(members, x, y, first, second, rows, tolerance, found)
+  subroutine compare_cluster(members, x, y, first, second, rows, tolerance, least, found)
     integer, intent(in) :: members(:)
     real(wp), intent(in) :: x(:, :), y(:, :)
     type(dataset_t), intent(in) :: first, second
     integer, intent(in) :: rows       !< entries of a mode
     type(tolerance_t), intent(in) :: tolerance
+    real(wp), intent(in) :: least(:)  !< by column: the least that entries are measured against
     type(differences_t), intent(inout) :: found
     real(wp) :: turn(size(members), size(members)), mac(size(members))
     integer :: j
@@ -162,7 +174,7 @@ contains
                      to_text(mac(j), 17), sqrt(max(0.0_wp, 1 - mac(j))))
     end do
     if (any(1 - mac > tolerance%relative**2 + round_off)) return
-    call compare_values(members, turn, first, second, rows, tolerance, found)
+    call compare_values(members, turn, first, second, rows, tolerance, least, found)
   end subroutine compare_cluster
 
   !> Matrix that makes the modes x those of y as well as it can, by orthogonalization of x, and
@@ -200,14 +212,16 @@ contains
   end subroutine fit
 
   !> The values of the first file, turned into those of the second. Against entries of a mode it is
-  !> the mode's largest of their dimension that counts. What is quadratic in the modes adds up to
+  !> the mode's largest of their dimension that counts, not less than round-off beside those of all
+  !> modes. What is quadratic in the modes adds up to
   !> the same over a cluster (masses) or is left out (shares of the energy).
-  subroutine compare_values(members, turn, first, second, rows, tolerance, found)
+  subroutine compare_values(members, turn, first, second, rows, tolerance, least, found)
     integer, intent(in) :: members(:)
     real(wp), intent(in) :: turn(:, :)
     type(dataset_t), intent(in) :: first, second
     integer, intent(in) :: rows       !< entries of a mode
     type(tolerance_t), intent(in) :: tolerance
+    real(wp), intent(in) :: least(:)  !< by column: the least that entries are measured against
     type(differences_t), intent(inout) :: found
     real(wp) :: p(rows, size(members)), q(rows, size(members)), allowed
     real(wp), allocatable :: scale(:)
@@ -229,7 +243,7 @@ contains
     one = second
     do j = 1, merge(1, size(members), is_quadratic(first%path))
       one%value = q(:, j)
-      scale = column_scales(one)
+      scale = max(column_scales(one, 0.0_wp), least)
       do k = 1, rows
         at = int(members(j) - 1, i8)*rows + k
         allowed = tolerance%absolute + tolerance%relative*scale(1 + modulo(k - 1, size(scale)))

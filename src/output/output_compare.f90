@@ -5,7 +5,8 @@ module output_compare
   use errors, only: error_t, fail, exit_usage
   use text, only: string_t, to_text, quoted
   use output_reader, only: reader_t, dataset_t, kind_other, kind_whole, kind_text
-  use output_differences, only: differences_t, tolerance_t, column_scales, index_text, noise
+  use output_differences, only: differences_t, tolerance_t, index_text, noise
+  use output_scales, only: get_length, get_scales, column_scales
   use mode_compare, only: is_mode_dataset, compare_modes
   implicit none
   private
@@ -148,14 +149,17 @@ contains
     type(differences_t), intent(inout) :: found
     type(error_t), allocatable, intent(out) :: error
     type(string_t), allocatable :: paths(:)
+    real(wp) :: length
     integer :: i
 
+    call get_length(a, length, error)
+    if (allocated(error)) return
     call a%list("", paths)
     do i = 1, size(paths)
       if (.not. selected(paths(i)%s, only)) cycle
       call found%start_dataset()
       if (b%has(paths(i)%s)) then
-        call compare_one(a, b, paths(i)%s, tolerance, found, error)
+        call compare_one(a, b, length, paths(i)%s, tolerance, found, error)
         if (allocated(error)) return
       else
         call found%add(paths(i)%s, "missing", "", "", "")
@@ -170,8 +174,9 @@ contains
   end subroutine compare_all
 
   !> A dataset that both files have.
-  subroutine compare_one(a, b, path, tolerance, found, error)
+  subroutine compare_one(a, b, length, path, tolerance, found, error)
     type(reader_t), intent(in) :: a, b
+    real(wp), intent(in) :: length     !< of the model, 0: unknown
     character(len=*), intent(in) :: path
     type(tolerance_t), intent(in) :: tolerance
     type(differences_t), intent(inout) :: found
@@ -179,6 +184,7 @@ contains
     character(len=*), parameter :: kinds(0:3) = ["unknown      ", "whole numbers", &
                                                  "reals        ", "texts        "]
     type(dataset_t) :: first, second
+    real(wp), allocatable :: scale(:), other(:)
 
     call a%read(path, first, error)
     if (.not. allocated(error)) call b%read(path, second, error)
@@ -188,13 +194,16 @@ contains
     else if (.not. same_shape(first, second)) then
       call found%add(path, "shape", "", shape_text(first), shape_text(second))
     else if (is_mode_dataset(a, first)) then
-      call compare_modes(a, b, first, second, tolerance, found, error)
+      call compare_modes(a, b, length, first, second, tolerance, found, error)
     else if (first%kind == kind_text) then
       call compare_words(first, second, found)
     else if (index(first%axes, "real imaginary") > 0 .and. modulo(first%columns(), 2) == 0) then
       call compare_pairs(first, second, tolerance, found)
     else
-      call compare_values(first, second, tolerance, found)
+      call get_scales(a, length, first, scale, error)
+      if (.not. allocated(error)) call get_scales(b, length, second, other, error)
+      if (.not. allocated(error)) call compare_values(first, second, max(scale, other), tolerance, &
+                                                      found)
     end if
   end subroutine compare_one
 
@@ -232,16 +241,16 @@ contains
   end subroutine compare_words
 
   !> Numbers one by one; whole ones have to be equal.
-  subroutine compare_values(first, second, tolerance, found)
+  subroutine compare_values(first, second, scale, tolerance, found)
     type(dataset_t), intent(in) :: first, second
+    real(wp), intent(in) :: scale(:)   !< by column
     type(tolerance_t), intent(in) :: tolerance
     type(differences_t), intent(inout) :: found
     real(wp) :: allowed(first%columns()), relative
     integer(i8) :: i
     integer :: k
 
-    allowed = max(tolerance%absolute, noise*tolerance%relative* &
-                  max(column_scales(first), column_scales(second)))
+    allowed = max(tolerance%absolute, noise*tolerance%relative*scale)
     relative = tolerance%relative
     if (first%kind == kind_whole) allowed = 0
     if (first%kind == kind_whole) relative = 0
@@ -277,7 +286,7 @@ contains
     integer :: k
 
     allowed = max(tolerance%absolute, noise*tolerance%relative* &
-                  maxval(max(column_scales(first), column_scales(second))))
+                  maxval(max(column_scales(first, 0.0_wp), column_scales(second, 0.0_wp))))
     do i = 1, size(first%value, kind=i8), 2
       associate (a => first%value(i:i + 1), b => second%value(i:i + 1))
         if (all(ieee_is_finite(a)) .and. all(ieee_is_finite(b))) then

@@ -9,7 +9,7 @@ module output_differences
   private
 
   public :: differences_t, tolerance_t, print_differences, print_differences_json
-  public :: column_scales, index_text
+  public :: index_text
 
   !> Round-off: numbers that differ by this part of the relative tolerance, measured against the
   !> largest entry of their dimension in the dataset, are equal.
@@ -98,33 +98,6 @@ contains
     if (.not. (ieee_is_finite(a) .and. ieee_is_finite(b))) return
     relative_error = abs(a - b)/max(abs(a), abs(b), tiny(1.0_wp))
   end function relative_error
-
-  !> For each column the largest magnitude among the columns of the same dimension.
-  pure function column_scales(dataset) result(scale)
-    type(dataset_t), intent(in) :: dataset
-    real(wp), allocatable :: scale(:)
-    real(wp) :: largest(dataset%columns())
-    integer(i8) :: i
-    integer :: n, k, j
-
-    n = dataset%columns()
-    largest = 0
-    do i = 1, size(dataset%value, kind=i8)
-      k = 1 + int(modulo(i - 1, int(n, i8)))
-      if (.not. ieee_is_finite(dataset%value(i))) cycle
-      largest(k) = max(largest(k), abs(dataset%value(i)))
-    end do
-    allocate (scale(n))
-    do k = 1, n
-      scale(k) = 0
-      do j = 1, n
-        if (size(dataset%dimension, 2) == n) then
-          if (any(dataset%dimension(:, j) /= dataset%dimension(:, k))) cycle
-        end if
-        scale(k) = max(scale(k), largest(j))
-      end do
-    end do
-  end function column_scales
 
   !> "[3, 0]" for entry `i` of a dataset, counted from 1.
   pure function index_text(dataset, i) result(place)

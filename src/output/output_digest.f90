@@ -5,7 +5,7 @@ module output_digest
   use errors, only: error_t
   use text, only: string_t, to_text
   use output_reader, only: reader_t, dataset_t, kind_whole, kind_text
-  use output_differences, only: column_scales
+  use output_scales, only: get_length, get_scales
   implicit none
   private
 
@@ -27,28 +27,34 @@ contains
     type(reader_t) :: reader
     type(string_t), allocatable :: paths(:)
     type(dataset_t) :: dataset
+    real(wp), allocatable :: scale(:)
+    real(wp) :: length
     integer :: i, k
 
     call reader%open(path, error)
     if (allocated(error)) return
     write (unit, "(a, i0, a, i0, a)") "# ", digits, " digits, none below 1e-", digits + margin, &
-      " of the largest entry of a dataset's columns of one dimension"
+      " of the largest entry of a dataset, or of what it follows from"
+    call get_length(reader, length, error)
+    if (allocated(error)) return
     call reader%list("", paths)
     do i = 1, size(paths)
       if (any([(index(paths(i)%s, trim(left_out(k))) == 1, k=1, size(left_out))])) cycle
       if (index(paths(i)%s, "/convergence/") > 0) cycle
       call reader%read(paths(i)%s, dataset, error)
       if (allocated(error)) exit
-      call write_dataset(unit, dataset, digits)
+      call get_scales(reader, length, dataset, scale, error)
+      if (allocated(error)) exit
+      call write_dataset(unit, dataset, digits, scale)
     end do
     call reader%close()
   end subroutine write_digest
 
   !> Path and shape, then a line for each row.
-  subroutine write_dataset(unit, dataset, digits)
+  subroutine write_dataset(unit, dataset, digits, scale)
     integer, intent(in) :: unit, digits
     type(dataset_t), intent(in) :: dataset
-    real(wp), allocatable :: scale(:)
+    real(wp), intent(in) :: scale(:)   !< by column, see `rounded`
     character(len=:), allocatable :: line
     integer :: columns, k
     integer(i8) :: i
@@ -65,7 +71,6 @@ contains
       end do
       return
     end if
-    scale = column_scales(dataset)
     line = ""
     do i = 1, size(dataset%value, kind=i8)
       k = 1 + int(modulo(i - 1, int(columns, i8)))

@@ -13,6 +13,7 @@ module output_log
   use restart_point, only: point_t
   use system_results, only: results_t
   use output_progress, only: progress_t, seconds_since, time_line
+  use output_summary, only: summary_t, summary_lines, right, longest_name
   implicit none
   private
 
@@ -22,19 +23,6 @@ module output_log
 
   integer, parameter :: most_rows = 40                   !< of the table of an analysis
   real(wp), parameter :: pause = 0.1_wp, long_pause = 2.0_wp  !< between lines of progress [s]
-
-  !> What the summary says of an analysis.
-  type :: summary_t
-    character(len=:), allocatable :: name
-    integer :: steps = 0, iterations = 0, cutbacks = 0
-    logical :: in_time = .false., restarts = .false.
-    real(wp) :: factor = 0.0_wp                  !< load factor or time
-    real(wp) :: largest = 0.0_wp                 !< displacement at the end
-    integer :: where = 0                         !< its node
-    integer :: found = -1                        !< modes, or nodes asked for; -1: it has steps
-    character(len=4) :: noun = "mode"            !< what `found` counts
-    logical :: complete = .false.
-  end type summary_t
 
   type :: run_log_t
     private
@@ -49,7 +37,7 @@ module output_log
     type(step_t) :: last                !< step
     logical :: printed = .true.         !< it has its row
     integer :: warnings = 0
-    character(len=20), allocatable :: node(:)
+    character(len=longest_name), allocatable :: node(:)
     type(summary_t), allocatable :: summary(:)
     integer :: analyses = 0
     integer :: first = 1                !< analysis of this run
@@ -101,6 +89,7 @@ contains
     character(len=*), intent(in) :: path       !< of the file
     type(point_t), intent(in) :: point
     real(wp) :: square(size(point%state%warping))
+    integer :: at
 
     square = sum(point%state%displacement**2, 1)
     self%first = point%analysis
@@ -109,8 +98,9 @@ contains
     associate (summary => self%summary(point%analysis))
       summary%steps = self%resumed
       summary%factor = point%time
-      summary%where = maxloc(square, 1)
-      summary%largest = sqrt(square(summary%where))
+      at = maxloc(square, 1)
+      summary%largest = sqrt(square(at))
+      summary%node = self%node(at)
     end associate
     call say(self, "Goes on from "//path//" at time "//to_text(point%time)//" of analysis "// &
              to_text(point%analysis)//", behind "//plural(point%states, "state"))
@@ -252,14 +242,6 @@ contains
     word = trim(adjustl(buffer))
   end function small
 
-  pure function right(word, width)
-    character(len=*), intent(in) :: word
-    integer, intent(in) :: width
-    character(len=:), allocatable :: right
-
-    right = repeat(" ", max(0, width - len(word)))//word
-  end function right
-
   !> Warnings go to standard error.
   subroutine log_remark(self, text)
     class(run_log_t), intent(inout) :: self
@@ -282,6 +264,7 @@ contains
     type(step_t), intent(in) :: step
     type(results_t), intent(in) :: results
     real(wp) :: square(size(results%displacement, 2))
+    integer :: at
 
     if (self%level == log_quiet) return
     square = sum(results%displacement**2, 1)
@@ -290,8 +273,9 @@ contains
       summary%iterations = summary%iterations + step%iterations
       summary%cutbacks = summary%cutbacks + step%cutbacks
       summary%factor = merge(step%time, step%factor, self%in_time)
-      summary%where = maxloc(square, 1)
-      summary%largest = sqrt(square(summary%where))
+      at = maxloc(square, 1)
+      summary%largest = sqrt(square(at))
+      summary%node = self%node(at)
     end associate
     self%last = step
     self%printed = self%level == log_verbose
@@ -313,7 +297,7 @@ contains
         line = row(step%step, step%factor, step%iterations, 13, step%last)
       end if
       call say(self, line//right(to_text(summary%largest, 5), 14)//" at node "// &
-               trim(self%node(summary%where)))
+               trim(summary%node))
     end associate
   end subroutine print_row
 
@@ -359,21 +343,15 @@ contains
   subroutine close_log(self, path)
     class(run_log_t), intent(inout) :: self
     character(len=*), intent(in) :: path   !< result file; empty: there is none
-    integer :: i, width
+    type(string_t), allocatable :: line(:)
+    integer :: i
 
     call self%progress%hide()
     if (self%analyses > 0) then
-      width = 8
-      do i = self%first, self%analyses
-        width = max(width, len(self%summary(i)%name))
-      end do
+      call summary_lines(self%summary(self%first:self%analyses), line)
       call say(self, "")
-      call say(self, "Analysis"//repeat(" ", width - 8)//"   steps"// &
-               merge("  factor, time", "   load factor", &
-                     any(self%summary(self%first:self%analyses)%in_time))// &
-               "   iterations   cut-backs   largest displacement")
-      do i = self%first, self%analyses
-        call say(self, summary_row(self, self%summary(i), width))
+      do i = 1, size(line)
+        call say(self, line(i)%s)
       end do
     end if
     if (self%warnings > 0) call say(self, plural(self%warnings, "warning"))
@@ -384,26 +362,6 @@ contains
       call say(self, "To go on: the same command with --restart "//path)
     end associate
   end subroutine close_log
-
-  function summary_row(self, summary, width) result(line)
-    type(run_log_t), intent(in) :: self
-    type(summary_t), intent(in) :: summary
-    integer, intent(in) :: width
-    character(len=:), allocatable :: line
-
-    if (summary%found >= 0) then
-      line = summary%name//repeat(" ", width - len(summary%name))//"   "//plural(summary%found, &
-        summary%noun)
-      if (.not. summary%complete) line = line//"   (not complete)"
-      return
-    end if
-    line = summary%name//repeat(" ", width - len(summary%name))// &
-           right(to_text(summary%steps), 8)//right(to_text(summary%factor), 14)// &
-           right(to_text(summary%iterations), 13)//right(to_text(summary%cutbacks), 12)
-    if (summary%steps > 0) line = line//right(to_text(summary%largest, 5), 14)//" at node "// &
-                                  trim(self%node(summary%where))
-    if (.not. summary%complete) line = line//"   (not complete)"
-  end function summary_row
 
   !> Seconds since the start, in two digits.
   function elapsed(self) result(word)

@@ -2,7 +2,7 @@
 module output_modes
   use kinds, only: wp
   use mode_results, only: modes_t
-  use system_results, only: result_modes
+  use system_results, only: result_modes, joint_strains
   use output_hdf5, only: hdf5_file_t, about_t
   use output_matrices, only: write_matrices
   implicit none
@@ -27,6 +27,7 @@ contains
     end if
     call write_nodes(file, group//"/modes", modes)
     call write_elements(file, group//"/modes", modes)
+    if (size(modes%joint_strain, 2) > 0) call write_joints(file, group//"/modes/joints", modes)
     if (allocated(modes%quadrature)) call write_quadrature(file, group//"/modes", modes)
     if (allocated(modes%matrices)) call write_matrices(file, group//"/matrices", modes)
   end subroutine write_modes
@@ -113,6 +114,22 @@ contains
               "shares of the strain energy; 0 of a free motion"))
   end subroutine write_elements
 
+  subroutine write_joints(file, group, modes)
+    type(hdf5_file_t), intent(inout) :: file
+    character(len=*), intent(in) :: group
+    type(modes_t), intent(in) :: modes
+    integer :: rows
+
+    rows = size(modes%joint_strain, 2)*modes%modes
+    call file%group(group)
+    call file%write(group//"/strain", &
+      reshape(modes%joint_strain(:, :, :modes%modes), [joint_strains, rows]), &
+      about_t("1", "mode*joint; strain 1 to 6", "angles or lengths L, by the joint's type"))
+    call file%write(group//"/stress", &
+      reshape(modes%joint_stress(:, :, :modes%modes), [joint_strains, rows]), &
+      about_t("FL", "mode*joint; strain 1 to 6", "moments or, of lengths, forces F"))
+  end subroutine write_joints
+
   !> The imaginary parts of complex modes.
   subroutine write_quadrature(file, group, modes)
     type(hdf5_file_t), intent(inout) :: file
@@ -133,6 +150,11 @@ contains
         about_t("L", "mode*element; strain 1 to 8", "imaginary part of the strains"))
       call file%write(group//"/elements/stress_imaginary", flat(part%stress), &
         about_t("F", "mode*element; strain 1 to 8", "imaginary part of their stress resultants"))
+      if (size(part%joint_strain, 2) == 0) return
+      call file%write(group//"/joints/strain_imaginary", flat(part%joint_strain), &
+        about_t("1", "mode*joint; strain 1 to 6", "imaginary part of the joints' strains"))
+      call file%write(group//"/joints/stress_imaginary", flat(part%joint_stress), &
+        about_t("FL", "mode*joint; strain 1 to 6", "imaginary part of their stress resultants"))
     end associate
 
   contains

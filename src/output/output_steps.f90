@@ -5,12 +5,13 @@ module output_steps
   use kinds, only: wp, i8
   use model_data, only: model_t, analysis_t, name_length, components, analysis_kinematic
   use recorder, only: step_t
-  use system_results, only: results_t, result_modes, joint_strains, energy_names
+  use system_results, only: results_t, result_modes, joint_strains
   use system_stress, only: stress_parts
   use output_choice, only: choices_t, all_of, kept_of, labels_of
   use output_compliance, only: start_compliance, append_compliance
   use output_files, only: link_name
   use output_hdf5, only: hdf5_file_t, about_t
+  use output_motion, only: motion_tables_t
   use output_schedule, only: in_time, expected_steps, block_size
   use output_tables, only: table_t
   implicit none
@@ -23,17 +24,7 @@ module output_steps
     strain = 10, stress = 11, force_p = 12, force_q = 13, point_stress = 14, &
     joint_strain = 15, joint_stress = 16, joint_rate = 17, &
     iterations = 18, cutbacks = 19, unstable = 20, arc_length = 21, residual = 22, &
-    increment = 23, constraint = 24, &
-    velocity = 25, angular_velocity = 26, warping_rate = 27, &
-    acceleration = 28, angular_acceleration = 29, warping_acceleration = 30, &
-    linear_momentum = 31, angular_momentum = 32, compliance = 33, first_energy = 34, &
-    tables = first_energy + size(energy_names) - 1
-
-  character(len=*), parameter :: energy_texts(size(energy_names)) = [character(len=72) :: &
-    "of all masses", "of all flexible modes, initial stresses included", &
-    "work of the loads since the start", "work of prescribed coordinates and strains since the"// &
-    " start", "work lost in dampers since the start", &
-    "kinetic + strain + dissipated - loads - motion, from 0 at the start"]
+    increment = 23, constraint = 24, compliance = 25, tables = compliance
 
   type :: step_tables_t
     private
@@ -46,6 +37,7 @@ module output_steps
     integer(i8) :: steps = 0                       !< expected
     integer :: block = 1, pending = 0              !< steps written together, not yet written
     type(table_t) :: table(tables)
+    type(motion_tables_t) :: motion                !< of motions in time
     type(table_t), allocatable :: marker_table(:)
   contains
     procedure :: prepare
@@ -93,13 +85,16 @@ contains
     call start_convergence(self, file)
     if (allocated(analysis%node)) call start_compliance(self%table(compliance), file, group, &
                                                         self%label(:, analysis%node), self%steps)
-    if (self%timed) call start_motion(self, file)
-    if (self%timed .and. analysis%kind /= analysis_kinematic) call start_balances(self, file)
+    if (self%timed) call self%motion%start(file, group, self%now%node, self%steps, &
+                                           analysis%kind /= analysis_kinematic)
     self%block = 1
     if (self%timed) self%block = block_size(bytes_of_step(self))
     self%pending = 0
     do i = 1, tables
       call self%table(i)%gather(self%block)
+    end do
+    do i = 1, size(self%motion%table)
+      call self%motion%table(i)%gather(self%block)
     end do
     do i = 1, size(self%marker)
       call self%marker_table(i)%gather(self%block)
@@ -259,47 +254,6 @@ contains
                     "largest fixed strain, relative to the model's length")
   end subroutine start_convergence
 
-  !> Velocities and accelerations of the nodes.
-  subroutine start_motion(self, file)
-    type(step_tables_t), intent(inout) :: self
-    type(hdf5_file_t), intent(inout) :: file
-    character(len=*), parameter :: xyz = "step*node; X Y Z", turn = "step*node; RX RY RZ"
-
-    associate (n => self%now%node%rows)
-      call start_table(self, file, velocity, "nodes/velocity", n, 3, &
-        about_t("LT-1", xyz, "velocity"))
-      call start_table(self, file, angular_velocity, "nodes/angular_velocity", n, 3, &
-        about_t("T-1", turn, "angular velocity, global axes"))
-      call self%table(warping_rate)%start_reals(file, self%group//"/nodes/warping_rate", &
-        self%steps*n, about_t("L-1T-1", "step*node", "change of the warping coordinate with time"))
-      call start_table(self, file, acceleration, "nodes/acceleration", n, 3, &
-        about_t("LT-2", xyz, "acceleration"))
-      call start_table(self, file, angular_acceleration, "nodes/angular_acceleration", n, 3, &
-        about_t("T-2", turn, "angular acceleration, global axes"))
-      call self%table(warping_acceleration)%start_reals(file, &
-        self%group//"/nodes/warping_acceleration", self%steps*n, &
-        about_t("L-1T-2", "step*node", "change of the warping rate with time"))
-    end associate
-  end subroutine start_motion
-
-  !> Energy and momentum of the whole model.
-  subroutine start_balances(self, file)
-    type(step_tables_t), intent(inout) :: self
-    type(hdf5_file_t), intent(inout) :: file
-    integer :: i
-
-    call file%group(self%group//"/energy")
-    do i = 1, size(energy_names)
-      call start_list(self, file, first_energy + i - 1, "energy/"//trim(energy_names(i)), "FL", &
-                      trim(energy_texts(i)))
-    end do
-    call file%group(self%group//"/momentum")
-    call start_table(self, file, linear_momentum, "momentum/linear", 1, 3, &
-      about_t("MLT-1", "step; X Y Z", "momentum of all masses"))
-    call start_table(self, file, angular_momentum, "momentum/angular", 1, 3, &
-      about_t("ML2T-1", "step; X Y Z", "angular momentum of all masses about the origin"))
-  end subroutine start_balances
-
   !> Add a step; `written`: what was kept is in the file now.
   subroutine append_step(self, file, step, results, written)
     class(step_tables_t), intent(inout) :: self
@@ -313,7 +267,10 @@ contains
     call append_state(self, file, results)
     if (allocated(step%compliance)) call append_compliance(self%table(compliance), file, &
                                                            step%compliance)
-    if (self%timed) call append_motion(self, file, results)
+    if (self%timed) then
+      call self%table(joint_rate)%append(file, results%joint_rate)
+      call self%motion%append(file, self%now%node, results)
+    end if
     do i = 1, size(self%marker)
       call self%marker_table(i)%append(file, results%marker(:, i:i))
     end do
@@ -339,6 +296,9 @@ contains
 
     do i = 1, tables
       call copy_one(self%table(i))
+    end do
+    do i = 1, size(self%motion%table)
+      call copy_one(self%motion%table(i))
     end do
     do i = 1, size(self%marker)
       call copy_one(self%marker_table(i))
@@ -395,29 +355,6 @@ contains
     end associate
   end subroutine append_state
 
-  subroutine append_motion(self, file, results)
-    type(step_tables_t), intent(inout) :: self
-    type(hdf5_file_t), intent(inout) :: file
-    type(results_t), intent(in) :: results
-    integer :: i
-
-    associate (t => self%table, node => self%now%node)
-      call node%append(file, t(velocity), results%velocity(1:3, :))
-      call node%append(file, t(angular_velocity), results%velocity(4:6, :))
-      call node%append(file, t(warping_rate), results%velocity(7:7, :))
-      call node%append(file, t(acceleration), results%acceleration(1:3, :))
-      call node%append(file, t(angular_acceleration), results%acceleration(4:6, :))
-      call node%append(file, t(warping_acceleration), results%acceleration(7:7, :))
-      call t(joint_rate)%append(file, results%joint_rate)
-      if (.not. allocated(results%energy)) return  ! KINEMATIC knows no masses
-      do i = 1, size(energy_names)
-        call t(first_energy + i - 1)%append(file, results%energy(i))
-      end do
-      call t(linear_momentum)%append(file, reshape(results%momentum(1:3), [3, 1]))
-      call t(angular_momentum)%append(file, reshape(results%momentum(4:6), [3, 1]))
-    end associate
-  end subroutine append_motion
-
   !> Write what is kept and close the datasets.
   subroutine finish(self, file)
     class(step_tables_t), intent(inout) :: self
@@ -426,6 +363,9 @@ contains
 
     do i = 1, tables
       call self%table(i)%finish(file)
+    end do
+    do i = 1, size(self%motion%table)
+      call self%motion%table(i)%finish(file)
     end do
     if (.not. allocated(self%marker_table)) return
     do i = 1, size(self%marker)

@@ -5,11 +5,10 @@
 module output_tables
   use, intrinsic :: iso_fortran_env, only: i1 => int8
   use, intrinsic :: iso_c_binding, only: c_ptr, c_loc, c_size_t
-  use hdf5, only: hid_t, hsize_t, size_t, h5pcreate_f, h5pclose_f, h5pset_obj_track_times_f, &
-                  h5pset_chunk_f, h5pset_chunk_cache_f, h5screate_simple_f, h5sclose_f, &
-                  h5dcreate_f, h5dset_extent_f, h5dget_space_f, h5dwrite_f, h5dclose_f, &
-                  h5sselect_hyperslab_f, h5p_dataset_create_f, h5p_dataset_access_f, &
-                  h5s_select_set_f, h5s_unlimited_f, h5t_native_double, &
+  use hdf5, only: hid_t, hsize_t, size_t, h5pset_chunk_f, h5pset_chunk_cache_f, &
+                  h5screate_simple_f, h5sclose_f, h5dcreate_f, &
+                  h5dset_extent_f, h5dget_space_f, h5dwrite_f, h5dclose_f, &
+                  h5sselect_hyperslab_f, h5s_select_set_f, h5s_unlimited_f, h5t_native_double, &
                   h5t_native_integer, h5t_ieee_f64le, h5t_ieee_f32le, h5t_std_i32le, &
                   h5t_std_i64le, h5t_native_real, h5kind_to_type, h5_integer_kind, &
                   h5tget_size_f
@@ -24,10 +23,10 @@ module output_tables
   public :: table_t
 
   integer, parameter :: bytes_of_real = 8
-  integer(hsize_t), parameter :: piece = 32768   !< bytes by which a dataset grows, at most
+  integer(hsize_t), parameter :: growth = 32768  !< bytes by which a dataset grows, at most
 
   !> Pieces kept in memory, of which only the last is needed: little memory for many datasets.
-  integer(size_t), parameter :: slots = 31, kept = 4*piece
+  integer(size_t), parameter :: slots = 31, kept = 4*growth
 
   integer(i8), parameter :: copied_bytes = 2_i8**21   !< at once, about
 
@@ -52,9 +51,9 @@ module output_tables
     procedure :: start_reals
     procedure :: start_singles
     procedure :: start_longs
-    procedure, private :: append_integer, append_longs, append_real, &
+    procedure, private :: append_integer, append_longs, append_long_table, append_real, &
       append_reals, append_real_table, append_singles, append_single_table
-    generic :: append => append_integer, append_longs, append_real, &
+    generic :: append => append_integer, append_longs, append_long_table, append_real, &
       append_reals, append_real_table, append_singles, append_single_table
     procedure :: finish
   end type table_t
@@ -88,20 +87,21 @@ contains
     call start(self, file, path, h5t_ieee_f64le, h5t_native_double, rows, about)
   end subroutine start_reals
 
-  !> The same in single precision.
-  subroutine start_singles(self, file, path, rows, about, columns)
+  !> The same in single precision; with `piece`, appends come in pieces of about so many rows and
+  !> are written straight to the file.
+  subroutine start_singles(self, file, path, rows, about, columns, piece)
     class(table_t), intent(out) :: self
     type(hdf5_file_t), intent(inout) :: file
     character(len=*), intent(in) :: path
     integer(i8), intent(in) :: rows
     type(about_t), intent(in) :: about
-    integer, intent(in), optional :: columns
+    integer, intent(in), optional :: columns, piece
 
     if (present(columns)) then
       self%rank = 2
       self%columns = columns
     end if
-    call start(self, file, path, h5t_ieee_f32le, h5t_native_real, rows, about)
+    call start(self, file, path, h5t_ieee_f32le, h5t_native_real, rows, about, piece)
   end subroutine start_singles
 
   !> A list of long whole numbers or, with `columns`, a table.
@@ -121,16 +121,17 @@ contains
                about)
   end subroutine start_longs
 
-  subroutine start(self, file, path, type, given, rows, about)
+  subroutine start(self, file, path, type, given, rows, about, piece)
     type(table_t), intent(inout) :: self
     type(hdf5_file_t), intent(inout) :: file
     character(len=*), intent(in) :: path
     integer(hid_t), intent(in) :: type, given   !< in the file and in memory
     integer(i8), intent(in) :: rows
     type(about_t), intent(in), optional :: about
-    integer(hsize_t) :: chunk(2), largest(2)
+    integer, intent(in), optional :: piece
+    integer(hsize_t) :: largest(2)
     integer(size_t) :: bytes
-    integer(hid_t) :: list, access, space
+    integer(hid_t) :: list, space
     integer :: status
 
     if (allocated(file%failure)) return
@@ -139,32 +140,43 @@ contains
     self%width = int(self%columns*bytes)
     self%expected = rows
     self%path = path
-    chunk = [self%columns, max(1_hsize_t, min(rows, piece/(bytes_of_real*self%columns)))]
+    list = file%table_list
+    if (present(piece)) list = file%piece_list
+    call set_storage(self, file, list, piece)
     largest = [self%columns, h5s_unlimited_f]
-    call h5pcreate_f(h5p_dataset_create_f, list, status)
-    call h5pset_obj_track_times_f(list, .false., status)
-    call file%check(status, "h5pset_obj_track_times_f")
-    call h5pset_chunk_f(list, self%rank, chunk(3 - self%rank:), status)
-    call file%check(status, "h5pset_chunk_f")
-    call h5pcreate_f(h5p_dataset_access_f, access, status)
-    call h5pset_chunk_cache_f(access, slots, kept, 1.0, status)
-    call file%check(status, "h5pset_chunk_cache_f")
     associate (extents => [self%columns, 0_hsize_t])
       call h5screate_simple_f(self%rank, extents(3 - self%rank:), space, status, &
                               largest(3 - self%rank:))
     end associate
     call file%check(status, "h5screate_simple_f")
-    call h5dcreate_f(file%id, path, type, space, self%dataset, status, dcpl_id=list, &
-                     dapl_id=access)
+    call h5dcreate_f(file%id, path, type, space, self%dataset, status, &
+                     dcpl_id=list, dapl_id=file%table_access)
     call file%check(status, "h5dcreate_f")
     if (status < 0) self%dataset = 0
     call h5sclose_f(space, status)
-    call h5pclose_f(list, status)
-    call h5pclose_f(access, status)
     if (present(about) .and. .not. allocated(file%failure)) then
       call file%describe(self%dataset, about)
     end if
   end subroutine start
+
+  !> Datasets grow by chunks. Those of a `piece` need no memory: what is written at once fills them.
+  subroutine set_storage(self, file, list, piece)
+    type(table_t), intent(in) :: self
+    type(hdf5_file_t), intent(inout) :: file
+    integer(hid_t), intent(in) :: list       !< how the dataset is created
+    integer, intent(in), optional :: piece   !< rows
+    integer(hsize_t) :: chunk(2)
+    integer :: status
+
+    chunk = [self%columns, growth/(bytes_of_real*self%columns)]
+    if (present(piece)) chunk(2) = piece
+    chunk(2) = max(1_hsize_t, min(int(self%expected, hsize_t), chunk(2)))
+    call h5pset_chunk_f(list, self%rank, chunk(3 - self%rank:), status)
+    call file%check(status, "h5pset_chunk_f")
+    call h5pset_chunk_cache_f(file%table_access, slots, merge(0_size_t, kept, present(piece)), &
+                              1.0, status)
+    call file%check(status, "h5pset_chunk_cache_f")
+  end subroutine set_storage
 
   subroutine append_integer(self, file, value)
     class(table_t), intent(inout) :: self
@@ -182,10 +194,17 @@ contains
     type(hdf5_file_t), intent(inout) :: file
     integer(i8), intent(in), contiguous, target :: values(:)
 
-    if (size(values) > 0) then
-      call append_rows(self, file, size(values)/int(self%columns), c_loc(values))
-    end if
+    if (size(values) > 0) call append_rows(self, file, size(values), c_loc(values))
   end subroutine append_longs
+
+  !> Rows of a table.
+  subroutine append_long_table(self, file, values)
+    class(table_t), intent(inout) :: self
+    type(hdf5_file_t), intent(inout) :: file
+    integer(i8), intent(in), contiguous, target :: values(:, :)   !< (columns, rows)
+
+    if (size(values) > 0) call append_rows(self, file, size(values, 2), c_loc(values))
+  end subroutine append_long_table
 
   subroutine append_real(self, file, value)
     class(table_t), intent(inout) :: self

@@ -6,31 +6,20 @@
 !> are those of the undeformed model or, for a mode about a deformed state, those of that state,
 !> written behind the former.
 module output_vtkhdf
-  use hdf5, only: h5lcreate_hard_f
   use kinds, only: wp, sp, i8
   use rotation, only: no_rotation
-  use model_data, only: model_t, mode_analyses
+  use model_data, only: model_t, mode_analyses, stability_off
   use system_results, only: results_t, result_modes
   use mode_results, only: modes_t
-  use output_hdf5, only: hdf5_file_t, about_t
-  use output_arrays, only: write_longs, write_bytes, set_longs, set_ascii
+  use output_hdf5, only: hdf5_file_t
+  use output_fields, only: field_writer_t
   use output_schedule, only: in_time, has_steps, expected_steps, drawn_intervals
-  use output_tables, only: table_t
   use beam_mesh, only: mesh_t, new_mesh, line_cell
   use beam_drawing, only: posture_t, draw_motion, draw_mode, draw_forces, draw_stress, mode_forces
   implicit none
   private
 
   public :: vtk_writer_t
-
-  character(len=*), parameter :: root = "VTKHDF", steps_group = root//"/Steps"
-
-  !> Tables of long whole numbers, a row for each step.
-  integer, parameter :: part_offsets = 1, parts = 2, point_offsets = 3, cell_offsets = 4, &
-                        field_offsets = 5, cell_field_offsets = 6, longs = 6
-
-  !> Points gathered before they are written: files of small models would rather wait for the disk.
-  integer, parameter :: gathered_points = 8192
 
   !> The mode of a critical point, and the state recorded before it.
   type :: critical_mode_t
@@ -45,15 +34,10 @@ module output_vtkhdf
     type(posture_t) :: posture                  !< of the last recorded state
     type(critical_mode_t), allocatable :: critical(:)   !< of the present analysis
     logical :: stressed = .false.               !< a section has an outline
-    integer :: points = 0, cells = 0            !< of the mesh
     integer :: joints = 0                       !< of the model, drawn or not
-    integer :: steps = 0                        !< written
-    integer :: pending = 0, most_pending = 1    !< gathered
-    integer(i8) :: point_sets = 1               !< written: undeformed, then about which modes are
     real(wp), allocatable :: motion(:, :), turn(:, :)   !< (3, points) displacement and rotation
     real(sp), allocatable :: stress(:), force(:, :)     !< (points), (7, cells)
-    type(table_t) :: point_table, values, origin_table, long(longs), &
-                     motion_table, rotation_table, stress_table, force_table
+    type(field_writer_t) :: fields
   contains
     procedure :: start
     procedure :: add_state
@@ -71,20 +55,25 @@ contains
     class(vtk_writer_t), intent(inout) :: self
     type(hdf5_file_t), intent(inout) :: file
     type(model_t), intent(in) :: model
-    integer(i8) :: steps
 
     call new_mesh(model, self%mesh)
     self%active = size(self%mesh%kind) > 0
     if (.not. self%active) return
     self%joints = size(model%joint)
     call make_room(self, size(model%node))
-    steps = drawn_steps(model)
-    call write_head(file)
-    call write_mesh(self, file)
-    call start_fields(self, file, steps)
-    call start_steps(self, file, steps)
-    call gather_steps(self)
+    call self%fields%start(file, self%mesh, drawn_steps(model), self%stressed, has_modes(model))
   end subroutine start
+
+  !> Whether modes may be drawn: they are about deformed states.
+  pure logical function has_modes(model)
+    type(model_t), intent(in) :: model
+    integer :: i
+
+    has_modes = any(model%analysis%stability /= stability_off)
+    do i = 1, size(model%analysis)
+      has_modes = has_modes .or. any(mode_analyses == model%analysis(i)%kind)
+    end do
+  end function has_modes
 
   subroutine make_room(self, nodes)
     type(vtk_writer_t), intent(inout) :: self
@@ -94,12 +83,11 @@ contains
     self%posture%displacement = 0
     self%posture%euler = spread(no_rotation, 2, nodes)
     self%posture%warping = 0
-    self%stressed = any(self%mesh%kind /= line_cell)
-    self%points = size(self%mesh%position, 2)
-    self%cells = size(self%mesh%kind)
-    self%most_pending = max(1, gathered_points/self%points)
-    allocate (self%motion(3, self%points), self%turn(3, self%points), self%stress(self%points), &
-              self%force(7, self%cells))
+    self%stressed = any(self%mesh%kind > line_cell)   ! surfaces
+    associate (points => size(self%mesh%position, 2), cells => size(self%mesh%kind))
+      allocate (self%motion(3, points), self%turn(3, points), self%stress(points), &
+                self%force(7, cells))
+    end associate
   end subroutine make_room
 
   !> About how many steps there will be.
@@ -120,118 +108,6 @@ contains
     end do
     drawn_steps = max(1_i8, drawn_steps)
   end function drawn_steps
-
-  !> All that grows by the step is written together.
-  subroutine gather_steps(self)
-    type(vtk_writer_t), intent(inout) :: self
-    integer :: i
-
-    call self%motion_table%gather(self%most_pending)
-    call self%rotation_table%gather(self%most_pending)
-    call self%stress_table%gather(self%most_pending)
-    call self%force_table%gather(self%most_pending)
-    call self%values%gather(self%most_pending)
-    call self%origin_table%gather(self%most_pending)
-    do i = 1, longs
-      call self%long(i)%gather(self%most_pending)
-    end do
-  end subroutine gather_steps
-
-  !> The group and its attributes: the type is plain ASCII, the version long whole numbers.
-  subroutine write_head(file)
-    type(hdf5_file_t), intent(inout) :: file
-
-    call file%group(root)
-    call file%group(steps_group)
-    call file%group(root//"/PointData")
-    call file%group(root//"/CellData")
-    call file%group(steps_group//"/PointDataOffsets")
-    call file%group(steps_group//"/CellDataOffsets")
-    call file%set_number(steps_group, "NSteps", 0)
-    call set_longs(file, root, "Version", [2, 0])
-    call set_ascii(file, root, "Type", "UnstructuredGrid")
-  end subroutine write_head
-
-  subroutine write_mesh(self, file)
-    type(vtk_writer_t), intent(inout) :: self
-    type(hdf5_file_t), intent(inout) :: file
-
-    associate (mesh => self%mesh)
-      call write_longs(file, root//"/NumberOfPoints", [size(mesh%position, 2)])
-      call write_longs(file, root//"/NumberOfCells", [size(mesh%kind)])
-      call write_longs(file, root//"/NumberOfConnectivityIds", [size(mesh%corners)])
-      call write_longs(file, root//"/Connectivity", mesh%corners)
-      call write_longs(file, root//"/Offsets", mesh%offset)
-      call write_bytes(file, root//"/Types", mesh%kind)
-      call self%point_table%start_reals(file, root//"/Points", size(mesh%position, 2, i8), &
-        about_t("L", "point; X Y Z", "positions of the undeformed model"), 3)
-      call self%point_table%append(file, mesh%position)
-    end associate
-  end subroutine write_mesh
-
-  subroutine start_fields(self, file, steps)
-    type(vtk_writer_t), intent(inout) :: self
-    type(hdf5_file_t), intent(inout) :: file
-    integer(i8), intent(in) :: steps
-
-    associate (points => steps*size(self%mesh%position, 2), cells => steps*size(self%mesh%kind))
-      call self%motion_table%start_reals(file, root//"/PointData/displacement", points, &
-        about_t("L", "step*point; X Y Z", "from Points; of modes as in /analysis"), 3)
-      call self%rotation_table%start_singles(file, root//"/PointData/rotation", points, &
-        about_t("1", "step*point; X Y Z", "rotation vector of the section in radians"), 3)
-      if (self%stressed) call self%stress_table%start_singles(file, &
-        root//"/PointData/axial_stress", points, about_t("FL-2", "step*point", &
-        "from section forces linear along the beam; of modes too"))
-      call self%force_table%start_singles(file, root//"/CellData/section_force", cells, &
-        about_t("F F F FL FL FL FL2", "step*cell; N Vy Vz T My Mz B", &
-                "linear along the beam; of modes to first order, of critical points 0"), 7)
-    end associate
-  end subroutine start_fields
-
-  !> Tables with a row for each step. VTK wants to know where in the tables a step's rows begin.
-  subroutine start_steps(self, file, steps)
-    type(vtk_writer_t), intent(inout) :: self
-    type(hdf5_file_t), intent(inout) :: file
-    integer(i8), intent(in) :: steps
-
-    call self%values%start_reals(file, steps_group//"/Values", steps, &
-      about_t("1", "step", "number of the step, from 1"))
-    call self%origin_table%start_longs(file, steps_group//"/Origin", steps, &
-      about_t("1", "step; analysis row", "number of the group in /analysis; of the state or"// &
-              " mode in it, from 0; -1, -2, ... for critical/0001, ..."), 2)
-    call start_long(self, file, part_offsets, "PartOffsets", steps)
-    call start_long(self, file, parts, "NumberOfParts", steps)
-    call start_long(self, file, point_offsets, "PointOffsets", steps)
-    call start_long(self, file, cell_offsets, "CellOffsets", steps, 1)
-    call start_long(self, file, field_offsets, "PointDataOffsets/displacement", steps)
-    call start_long(self, file, cell_field_offsets, "CellDataOffsets/section_force", steps)
-    call link(file, "CellOffsets", "ConnectivityIdOffsets")
-    call link(file, "PointDataOffsets/displacement", "PointDataOffsets/rotation")
-    if (self%stressed) call link(file, "PointDataOffsets/displacement", &
-                                 "PointDataOffsets/axial_stress")
-  end subroutine start_steps
-
-  subroutine start_long(self, file, which, name, steps, columns)
-    type(vtk_writer_t), intent(inout) :: self
-    type(hdf5_file_t), intent(inout) :: file
-    integer, intent(in) :: which
-    character(len=*), intent(in) :: name
-    integer(i8), intent(in) :: steps
-    integer, intent(in), optional :: columns
-
-    call self%long(which)%start_longs(file, steps_group//"/"//name, steps, columns=columns)
-  end subroutine start_long
-
-  !> A second name of a dataset.
-  subroutine link(file, old, new)
-    type(hdf5_file_t), intent(inout) :: file
-    character(len=*), intent(in) :: old, new
-    integer :: status
-
-    if (allocated(file%failure)) return
-    call h5lcreate_hard_f(file%id, steps_group//"/"//old, file%id, steps_group//"/"//new, status)
-    call file%check(status, "h5lcreate_hard_f")
-  end subroutine link
 
   !> A recorded state of analysis `number`; `row`: its place there, from 0.
   subroutine add_state(self, file, number, row, results, drawn)
@@ -279,7 +155,9 @@ contains
     point%mode%rotation = reshape(mode(4:6, :), [3, nodes, 1])
     point%mode%warping = reshape(mode(7, :), [nodes, 1])
     allocate (point%mode%stress(result_modes, size(self%mesh%beam), 1))
+    allocate (point%mode%joint_stress(1, self%joints, 1))
     point%mode%stress = 0
+    point%mode%joint_stress = 0
     if (.not. allocated(self%critical)) allocate (self%critical(0))
     self%critical = [self%critical, point]
   end subroutine add_critical
@@ -310,18 +188,18 @@ contains
     integer, intent(in) :: number, first
     type(modes_t), intent(in) :: modes
     real(wp), dimension(7, size(self%mesh%beam)) :: force_p, force_q
-    real(wp) :: no_stress(1, self%joints)
     integer(i8) :: set
     integer :: i
 
-    no_stress = 0
     call add_points(self, file, set)
     do i = 1, modes%modes
       call draw_mode(self%mesh, self%posture, modes%displacement(:, :, i), &
                      modes%rotation(:, :, i), modes%warping(:, i), self%motion, self%turn)
       call mode_forces(self%mesh, modes%stress(:, :, i), force_p, force_q)
-      call draw_forces(self%mesh, force_p, force_q, no_stress, self%force)
-      if (self%stressed) call draw_stress(self%mesh, force_p, force_q, no_stress, self%stress)
+      associate (joint_stress => modes%joint_stress(:, :, i))
+        call draw_forces(self%mesh, force_p, force_q, joint_stress, self%force)
+        if (self%stressed) call draw_stress(self%mesh, force_p, force_q, joint_stress, self%stress)
+      end associate
       call add_step(self, file, number, first + i - 1, set)
     end do
     call write_pending(self, file)
@@ -336,12 +214,10 @@ contains
     integer(i8), intent(in) :: set
     real(wp), intent(in), contiguous :: points(:, :)
     real(wp), intent(in) :: motion(:, :), turn(:, :), stress(:), force(:, :)
+    integer(i8) :: written
 
     if (.not. self%active) return
-    if (set == self%point_sets) then
-      call self%point_table%append(file, points)
-      self%point_sets = set + 1
-    end if
+    if (set == self%fields%point_sets) call self%fields%add_points(file, points, written)
     self%motion = motion
     self%turn = turn
     self%stress = real(stress, sp)
@@ -357,55 +233,28 @@ contains
 
     set = 0
     call draw_motion(self%mesh, self%posture, self%motion, self%turn)
-    if (.not. any(abs(self%motion) > 0)) return
-    call self%point_table%append(file, self%mesh%position + self%motion)
-    set = self%point_sets
-    self%point_sets = set + 1
+    if (any(abs(self%motion) > 0)) then
+      call self%fields%add_points(file, self%mesh%position + self%motion, set)
+    end if
   end subroutine add_points
 
-  !> A step has been drawn: where its rows begin in the tables, points first.
+  !> Add what was drawn as a step.
   subroutine add_step(self, file, number, row, set)
     type(vtk_writer_t), intent(inout) :: self
     type(hdf5_file_t), intent(inout) :: file
     integer, intent(in) :: number, row
     integer(i8), intent(in) :: set   !< of points
-    integer(i8) :: before, entry(longs)
-    integer :: i
 
-    before = self%steps + self%pending
-    entry = [0_i8, 1_i8, set*self%points, 0_i8, before*self%points, before*self%cells]
-    call self%motion_table%append(file, self%motion)
-    call self%rotation_table%append(file, real(self%turn, sp))
-    call self%stress_table%append(file, self%stress)
-    call self%force_table%append(file, self%force)
-    do i = 1, longs
-      call self%long(i)%append(file, entry(i:i))
-    end do
-    call self%origin_table%append(file, [int(number, i8), int(row, i8)])
-    call self%values%append(file, real(before + 1, wp))
-    self%pending = self%pending + 1
-    if (self%pending == self%most_pending) call write_pending(self, file)
+    call self%fields%add_step(file, [number, row], set, self%motion, self%turn, self%stress, &
+                              self%force)
   end subroutine add_step
 
-  !> Write what was gathered; the count of steps comes last, when all they need is there.
+  !> Write what was gathered.
   subroutine write_pending(self, file)
     class(vtk_writer_t), intent(inout) :: self
     type(hdf5_file_t), intent(inout) :: file
-    integer :: i
 
-    if (self%pending == 0) return
-    call self%motion_table%write(file)
-    call self%rotation_table%write(file)
-    call self%stress_table%write(file)
-    call self%force_table%write(file)
-    do i = 1, longs
-      call self%long(i)%write(file)
-    end do
-    call self%origin_table%write(file)
-    call self%values%write(file)
-    self%steps = self%steps + self%pending
-    self%pending = 0
-    call file%set_number(steps_group, "NSteps", self%steps)
+    call self%fields%write_pending(file)
   end subroutine write_pending
 
 end module output_vtkhdf

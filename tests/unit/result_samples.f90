@@ -45,7 +45,8 @@ contains
       m%eigenvalue = 39.5_wp*m%frequency**2
       allocate (m%displacement(3, nodes, sample_modes), m%rotation(3, nodes, sample_modes), &
                 m%warping(nodes, sample_modes), m%strain(8, members, sample_modes), &
-                m%stress(8, members, sample_modes), m%energy(energy_kinds, sample_modes))
+                m%stress(8, members, sample_modes), m%energy(energy_kinds, sample_modes), &
+                m%joint_strain(6, 0, sample_modes), m%joint_stress(6, 0, sample_modes))
       do k = 1, sample_modes
         m%displacement(:, :, k) = reshape([(sin(i*k + 0.3_wp), i=1, 3*nodes)], [3, nodes])
         m%rotation(:, :, k) = reshape([(0.1_wp*cos(i*k + 0.1_wp), i=1, 3*nodes)], [3, nodes])

@@ -43,6 +43,8 @@ program run_tests
   use test_complex_modes, only: run_complex_modes_tests
   use test_eigen_matrices, only: run_eigen_matrices_tests
   use test_output_hdf5, only: run_output_hdf5_tests
+  use test_output_modes, only: run_output_modes_tests
+  use test_output_scales, only: run_output_scales_tests
   use test_output_results, only: run_output_results_tests
   use test_output_compare, only: run_output_compare_tests
   use test_output_digest, only: run_output_digest_tests
@@ -108,6 +110,8 @@ program run_tests
   call run_complex_modes_tests()
   call run_eigen_matrices_tests()
   call run_output_hdf5_tests()
+  call run_output_modes_tests()
+  call run_output_scales_tests()
   call run_output_results_tests()
   call run_output_compare_tests()
   call run_output_digest_tests()

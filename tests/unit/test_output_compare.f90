@@ -22,6 +22,7 @@ contains
     call run("compare: equal files", test_equal)
     call run("compare: one changed value", test_value)
     call run("compare: round-off beside large entries of its dimension", test_round_off)
+    call run("compare: round-off in a mode that does not strain", test_idle_mode)
     call run("compare: whole numbers and texts are exact", test_exact)
     call run("compare: missing and extra datasets", test_missing)
     call run("compare: one more step", test_step)
@@ -139,6 +140,25 @@ contains
     call compare(first, second, found)
     call expect_one(found, static//"material", "text", "[0]")
   end subroutine test_exact
+
+  !> Entries that are round-off throughout a mode are measured against those of all modes: 1e-9 of
+  !> the largest is equal, 1e-8 is not.
+  subroutine test_idle_mode()
+    type(sample_t) :: first, second
+    type(differences_t) :: found
+    real(wp) :: largest
+
+    call new_sample(first)
+    call new_sample(second)
+    largest = maxval(abs(second%modes%strain))
+    first%modes%strain(:, :, 1) = 1.0e-17_wp
+    second%modes%strain(:, :, 1) = -3.0e-17_wp
+    call compare(first, second, found)
+    call expect(found%all == 0, "round-off of either sign")
+    second%modes%strain(2, 1, 1) = 1.0e-8_wp*largest
+    call compare(first, second, found)
+    call expect_one(found, eigen//"modes/elements/strain", "value", "[0, 1]")
+  end subroutine test_idle_mode
 
   subroutine test_missing()
     type(sample_t) :: first, second

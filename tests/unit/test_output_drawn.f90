@@ -68,15 +68,16 @@ contains
     end do
   end function count_drawn
 
-  !> 600 steps: every third; the truss between nodes 1 and 2, straight, with its force and stress.
+  !> 600 steps: every third; the truss between nodes 1 and 2, straight, with its force and stress,
+  !> and behind it the nodes of the hinges, which are 1, 3 and 4.
   subroutine test_drawing()
     type(model_t) :: model
     character(len=:), allocatable :: path
     integer, allocatable :: origin(:), whole(:), extents(:)
     real(wp), allocatable :: points(:), motion(:), force(:), stress(:)
     real(wp) :: axial
-    integer, parameter :: n = 3*4*8 + 2, drawn = 201
-    integer :: i, cells, k
+    integer, parameter :: dots = 3, n = 3*4*8 + 2 + dots, bar = 3*(n - dots), drawn = 201
+    integer :: i, cells, k, truss
 
     path = scratch("drawn.h5")
     call get_history_model(steps, model)
@@ -89,21 +90,28 @@ contains
     call expect(all(whole == [drawn]), "NSteps")
     call get_integers(path, "VTKHDF/Types", whole, extents)
     cells = size(whole)
-    call expect(whole(cells) == 3 .and. count(whole == 3) == 1, "one line, the last cell")
+    truss = cells - dots
+    call expect(count(whole == 3) == 1 .and. whole(truss) == 3, "one line")
+    call expect(count(whole == 1) == dots .and. all(whole(truss + 1:) == 1), "then dots")
     call get_reals(path, "VTKHDF/Points", points, extents)
     call get_reals(path, "VTKHDF/PointData/displacement", motion, extents)
     call get_reals(path, "VTKHDF/CellData/section_force", force, extents)
     call get_reals(path, "VTKHDF/PointData/axial_stress", stress, extents)
-    call expect_close(points(3*n - 5:), [0.0_wp, 0.0_wp, 0.0_wp, 5.0_wp, 0.0_wp, 0.0_wp], &
+    call expect_close(points(bar - 5:bar), [0.0_wp, 0.0_wp, 0.0_wp, 5.0_wp, 0.0_wp, 0.0_wp], &
                       1.0e-14_wp, "ends of the truss")
     do k = 0, drawn - 1, 50
-      call expect_close(motion(3*n*k + 3*n - 5:3*n*k + 3*n), &
+      call expect_close(motion(3*n*k + bar - 5:3*n*k + bar), &
         [(sample_value(of_displacement, 3*k, 1, i), i=1, 3), &
-         (sample_value(of_displacement, 3*k, 2, i), i=1, 3)], 0.0_wp, "they follow the nodes")
+         (sample_value(of_displacement, 3*k, 2, i), i=1, 3)], &
+        2.0_wp**(-24)*sample_value(of_displacement, 3*k, 2, 3), "they follow the nodes")
+      call expect_close(motion(3*n*(k + 1) - 5:3*n*(k + 1)), &
+        [(sample_value(of_displacement, 3*k, 3, i), i=1, 3), &
+         (sample_value(of_displacement, 3*k, 4, i), i=1, 3)], &
+        2.0_wp**(-24)*sample_value(of_displacement, 3*k, 4, 3), "so do the dots")
       axial = sample_value(of_joint_stress, 3*k, 1, 1)
-      call expect_close(force(7*cells*(k + 1) - 6:7*cells*(k + 1)), &
+      call expect_close(force(7*(cells*k + truss) - 6:7*(cells*k + truss)), &
                         [axial, (0.0_wp, i=1, 6)], 1.0e-6_wp*axial, "its force")
-      call expect_close(stress(n*(k + 1) - 1:n*(k + 1)), spread(axial/0.7_wp, 1, 2), &
+      call expect_close(stress(n*(k + 1) - dots - 1:n*(k + 1) - dots), spread(axial/0.7_wp, 1, 2), &
                         1.0e-6_wp*axial, "its stress")
     end do
   end subroutine test_drawing

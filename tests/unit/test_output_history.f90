@@ -193,7 +193,8 @@ contains
     call expect_drawing(path, 10)
   end subroutine test_choice
 
-  !> The drawing has all elements: three beams of three pieces with eight corners, the truss.
+  !> The drawing has all elements: three beams of three pieces with eight corners, the truss, and
+  !> the three nodes of the hinges.
   subroutine expect_drawing(path, drawn)
     character(len=*), intent(in) :: path
     integer, intent(in) :: drawn
@@ -201,7 +202,7 @@ contains
     integer, allocatable :: extents(:)
 
     call get_reals(path, "VTKHDF/PointData/displacement", motion, extents)
-    call expect(extents(1) == drawn*(3*4*8 + 2), "all points are drawn")
+    call expect(extents(1) == drawn*(3*4*8 + 2 + 3), "all points are drawn")
   end subroutine expect_drawing
 
   subroutine test_interrupted()

@@ -73,24 +73,24 @@ contains
     call expect(described > 100, "the page was read")
   end subroutine test_history
 
-  !> The same for modes: complex ones with matrices, real ones, and BUCKLING.
+  !> The same for modes: complex ones with matrices, those of joints, real ones, and BUCKLING.
   subroutine test_modes()
-    character(len=21), parameter :: deck(3) = [character(len=21) :: "rotating/proportional", &
-                                               "eigen/flap", "buckling/column"]
+    character(len=21), parameter :: deck(4) = [character(len=21) :: "rotating/proportional", &
+                                               "eigen/sprung_arm", "eigen/flap", "buckling/column"]
     type(outcome_t) :: outcome
     character(len=:), allocatable :: page, path
     integer :: described, i, analyses
 
     call read_text("docs/results.md", page)
     path = scratch("documented_modes.h5")
-    do i = 1, 3
+    do i = 1, 4
       call run_spar("run tests/cases/"//trim(deck(i))//".deck --quiet -o "//path, outcome)
       call expect(outcome%status == 0, trim(deck(i))//" runs")
       call compare_rows(page, path, described)
       select case (i)
       case (1)
         analyses = datasets(path, "/analysis/02_eigen")
-      case (2)
+      case (2, 3)
         analyses = datasets(path, "/analysis")
       case default
         analyses = 2

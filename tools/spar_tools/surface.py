@@ -67,6 +67,10 @@ def add_shape(plotter, shape, **options):
     actor.mapper.SetRelativeCoincidentTopologyPolygonOffsetParameters(2, 2)
     if shape.n_lines == 0:
         add_edges(plotter, shape, INK, 1.2)
+    if shape.n_verts:  # nodes of joints
+        dots = shape.verts.reshape(-1, 2)[:, 1]
+        plotter.add_mesh(shape.points[dots], color=INK, style="points", point_size=14,
+                         render_points_as_spheres=True, lighting=False)
 
 
 def new_plotter(pyvista, title):
