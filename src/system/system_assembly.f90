@@ -108,15 +108,36 @@ contains
     call add_rotation(system, state, spin_at(system, level), external, values)
   end subroutine assemble_loads
 
-  !> One element. The work arrays have a fixed size, because automatic ones would be allocated.
+  !> One element. The work arrays have a fixed size, because automatic ones would be allocated;
+  !> only elements of many nodes need larger ones.
   pure subroutine assemble_element(system, e, element, jacobian, iterate)
     type(system_t), intent(in) :: system
     integer, intent(in) :: e
     class(element_t), intent(in) :: element
     real(wp), intent(out) :: jacobian(element%strains, element%coordinates)
     type(iterate_t), intent(inout) :: iterate
+    real(wp) :: tangent(max_coordinates**2), size_of(max_coordinates)
+    real(wp), allocatable :: large_tangent(:), large_size(:)
+
+    if (element%coordinates <= max_coordinates) then
+      call assemble_with(system, e, element, tangent, size_of, jacobian, iterate)
+    else
+      allocate (large_tangent(element%coordinates**2), large_size(element%coordinates))
+      call assemble_with(system, e, element, large_tangent, large_size, jacobian, iterate)
+    end if
+  end subroutine assemble_element
+
+  !> One element, with room for its tangent and the sizes of its coordinates.
+  pure subroutine assemble_with(system, e, element, tangent, size_of, jacobian, iterate)
+    type(system_t), intent(in) :: system
+    integer, intent(in) :: e
+    class(element_t), intent(in) :: element
+    real(wp), intent(inout) :: tangent(element%coordinates, element%coordinates)
+    real(wp), intent(inout) :: size_of(element%coordinates)
+    real(wp), intent(out) :: jacobian(element%strains, element%coordinates)
+    type(iterate_t), intent(inout) :: iterate
     real(wp), dimension(max_strains) :: strain, stress
-    real(wp) :: law(max_strains**2), tangent(max_coordinates**2)
+    real(wp) :: law(max_strains**2)
     integer :: first, last, n
     logical :: valid
 
@@ -142,9 +163,9 @@ contains
     call add_forces(system, element, first, jacobian, stress, iterate)
     if (iterate%keeps_matrix) return
     call add_stiffness(element, jacobian, law, tangent)
-    call add_noise(element, tangent, iterate)
+    call add_noise(element, tangent, size_of, iterate)
     call add_element(system, e, element, tangent, jacobian, iterate%values)
-  end subroutine assemble_element
+  end subroutine assemble_with
 
   pure subroutine multiply(n, matrix, vector, product)
     integer, intent(in) :: n
@@ -201,18 +222,17 @@ contains
   end subroutine add_stiffness
 
   !> Round-off to expect in the forces of an element.
-  pure subroutine add_noise(element, tangent, iterate)
+  pure subroutine add_noise(element, tangent, size_of, iterate)
     class(element_t), intent(in) :: element
     real(wp), intent(in) :: tangent(element%coordinates, element%coordinates)
+    real(wp), intent(inout) :: size_of(element%coordinates)
     type(iterate_t), intent(inout) :: iterate
-    real(wp) :: size_of(max_coordinates)
-    integer :: j, n
+    integer :: j
 
-    n = element%coordinates
     call coordinate_sizes(element, iterate%state, size_of)
-    do j = 1, n
+    do j = 1, element%coordinates
       associate (noise => iterate%noise(element%coordinate(j)))
-        noise = noise + dot_product(abs(tangent(:, j)), size_of(:n))
+        noise = noise + dot_product(abs(tangent(:, j)), size_of)
       end associate
     end do
   end subroutine add_noise

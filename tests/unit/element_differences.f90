@@ -17,7 +17,7 @@ contains
     class(element_t), intent(in) :: element
     type(state_t), intent(in) :: state
     character(len=*), intent(in) :: name
-    real(wp), parameter :: h = 1.0e-5_wp, tolerance = 1.0e-8_wp
+    real(wp), parameter :: h = 3.0e-6_wp, tolerance = 1.0e-8_wp
     real(wp), parameter :: stress(6) = [1.0_wp, -0.7_wp, 0.4_wp, 0.9_wp, -1.2_wp, 0.3_wp]
     real(wp), dimension(element%strains) :: s, strain, plus, minus
     real(wp), dimension(element%strains, element%coordinates) :: b, bp, bm
