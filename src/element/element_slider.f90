@@ -77,7 +77,8 @@ contains
   end subroutine new_element_slider
 
   !> Arc coordinates and slopes: where elements meet at an angle the line takes the mean of their
-  !> directions, so that it has no kink.
+  !> directions, so that it has no kink, and the first and the last are bent evenly: that of chords
+  !> of a circle has its tangents.
   pure subroutine lay_track(track)
     type(track_t), intent(inout) :: track(:)
     integer :: k
@@ -92,7 +93,19 @@ contains
         before%slope(:, 2) = here%slope(:, 1)
       end associate
     end do
+    k = size(track)
+    if (k == 1) return
+    track(1)%slope(:, 1) = reflected(track(1)%slope(:, 2), track(1)%chord)
+    track(k)%slope(:, 2) = reflected(track(k)%slope(:, 1), track(k)%chord)
   end subroutine lay_track
+
+  !> The direction that a chord makes the same angle with on the other side.
+  pure function reflected(slope, chord) result(image)
+    real(wp), intent(in) :: slope(3), chord(3)
+    real(wp) :: image(3)
+
+    image = 2*dot_product(slope, chord)/dot_product(chord, chord)*chord - slope
+  end function reflected
 
   !> The coordinates: those of the node, then of the chain's nodes, each once.
   pure subroutine set_places(new)

@@ -222,11 +222,11 @@ contains
   end subroutine full_turns
 
   !> Points of r = H1 r^p + H2 l0 d^p + H3 r^q + H4 l0 d^q, written out, have no distance from the
-  !> line and the way l0 xi.
+  !> line and the way l0 xi; a force across is that on the body, one along is per length l0.
   subroutine foot()
     class(element_t), allocatable :: element
     type(state_t) :: state
-    real(wp) :: d(3, 2), r(3, 2), x, strain(3)
+    real(wp) :: d(3, 2), r(3, 2), x, strain(3), b(3, 31), along(3)
     integer :: i, e
 
     call new_slider(straight, [1.0_wp, 0.0_wp, 0.0_wp], .false., element)
@@ -244,8 +244,14 @@ contains
       end do
       state%displacement(:, body) = (1 - 3*x**2 + 2*x**3)*r(:, 1) + (3*x**2 - 2*x**3)*r(:, 2) &
         + 2*(x - 2*x**2 + x**3)*d(:, 1) + 2*(x**3 - x**2)*d(:, 2) - [1.0_wp, 0.0_wp, 0.0_wp]
-      strain = strains(element, state)
+      strain = strains(element, state, b)
       call expect_close(strain, [2*x, 0.0_wp, 0.0_wp], 1.0e-13_wp, "a point of the line")
+      along = 6*x*(1 - x)*(r(:, 2) - r(:, 1))/2 + (1 - 4*x + 3*x**2)*d(:, 1) &
+              + (3*x**2 - 2*x)*d(:, 2)
+      call expect_close(b(1, 1:3), along/dot_product(along, along), 1.0e-13_wp, "along the line")
+      b(1, 1:3) = along/norm2(along)
+      call expect_close(matmul(b(:, 1:3), transpose(b(:, 1:3))), identity3, 1.0e-13_wp, &
+                        "unit vectors across")
     end do
   end subroutine foot
 
