@@ -28,7 +28,6 @@ module element_slider
     real(wp) :: shear_centre(2) = 0.0_wp  !< y, z: where alpha moves the line [L]
     real(wp) :: slope(3, 2) = 0.0_wp    !< of the line at p and q, initially: unit vectors
     real(wp) :: arc = 0.0_wp            !< length of the chain before it [L]
-    integer :: place(rail_coordinates) = 0  !< its coordinates and the body's among the element's
   end type track_t
 
   !> How far the line is followed beyond its ends, in lengths of the element there.
@@ -41,8 +40,10 @@ module element_slider
     type(track_t), allocatable :: track(:)
     integer :: slot = 0                 !< of the way in `state%angle`; the turn's is the next
     real(wp) :: start = 0.0_wp          !< arc coordinate at the start [L]
+    integer, allocatable :: from(:)     !< by coordinate of a part: which of `slider_strains` it is
   contains
     procedure :: evaluate
+    procedure :: evaluate_part
     procedure :: count_turns
     procedure, private :: locate
     procedure, private :: rail_of
@@ -71,7 +72,7 @@ contains
     call new%set_law(fixed, stiffness, damping)
     call lay_track(new%track)
     new%size = new%track(size(track))%arc + norm2(track(size(track))%chord)
-    call set_places(new)
+    call set_parts(new)
     call set_start(new)
     call move_alloc(new, element)
   end subroutine new_element_slider
@@ -107,34 +108,35 @@ contains
     image = 2*dot_product(slope, chord)/dot_product(chord, chord)*chord - slope
   end function reflected
 
-  !> The coordinates: those of the node, then of the chain's nodes, each once.
-  pure subroutine set_places(new)
+  !> The coordinates: those of the node, then of the chain's nodes, each once. A part is the node
+  !> and one element.
+  pure subroutine set_parts(new)
     type(element_slider_t), intent(inout) :: new
-    integer :: list(6 + 2*node_coordinates*size(new%track)), n, own, k, e, i, c
+    integer :: list(6 + 2*node_coordinates*size(new%track)), own, n, k, e, i, c, at
 
     own = merge(6, 3, new%node(2) > 0)
+    list(:own) = [(coordinate_number(new%node((i + 2)/3), i), i=1, own)]
+    new%from = [(i, i=1, own), (6 + i, i=1, 2*node_coordinates)]
+    allocate (new%part(size(new%from), size(new%track)))
     n = own
-    list(:own) = [(coordinate_number(new%node(1 + (i - 1)/3), i), i=1, own)]
     do k = 1, size(new%track)
-      associate (track => new%track(k))
-        track%place(:own) = [(i, i=1, own)]
-        do e = 1, 2
-          do i = 1, node_coordinates
-            c = coordinate_number(track%node((i + 2)/3, e), i)
-            associate (place => track%place(node_coordinates*e - 1 + i))
-              place = findloc(list(:n), c, 1, back=.true.)
-              if (place > 0) cycle
-              n = n + 1
-              list(n) = c
-              place = n
-            end associate
-          end do
+      new%part(:own, k) = [(i, i=1, own)]
+      do e = 1, 2
+        do i = 1, node_coordinates
+          c = coordinate_number(new%track(k)%node((i + 2)/3, e), i)
+          at = findloc(list(:n), c, 1, back=.true.)
+          if (at == 0) then
+            n = n + 1
+            list(n) = c
+            at = n
+          end if
+          new%part(own + node_coordinates*(e - 1) + i, k) = at
         end do
-      end associate
+      end do
     end do
     new%coordinates = n
     allocate (new%coordinate, source=list(:n))
-  end subroutine set_places
+  end subroutine set_parts
 
   !> Where the body starts: at the place of the undeformed line that it is nearest to.
   pure subroutine set_start(new)
@@ -242,28 +244,38 @@ contains
     real(wp), intent(out) :: jacobian(self%strains, self%coordinates)
     real(wp), intent(out) :: geometric(self%coordinates, self%coordinates)
     logical, intent(out) :: valid
+    real(wp) :: b(self%strains, size(self%part, 1)), g(size(self%part, 1), size(self%part, 1))
+    integer :: k
+
+    call self%evaluate_part(state, stress, k, strain, b, g, valid)
+    jacobian = 0
+    geometric = 0
+    if (.not. valid) return
+    jacobian(:, self%part(:, k)) = b
+    geometric(self%part(:, k), self%part(:, k)) = g
+  end subroutine evaluate
+
+  !> Of the active element: the part.
+  pure subroutine evaluate_part(self, state, stress, part, strain, jacobian, geometric, valid)
+    class(element_slider_t), intent(in) :: self
+    type(state_t), intent(in) :: state
+    real(wp), intent(in) :: stress(self%strains)
+    integer, intent(out) :: part
+    real(wp), intent(out) :: strain(self%strains)
+    real(wp), intent(out) :: jacobian(:, :), geometric(:, :)
+    logical, intent(out) :: valid
     type(jet_t) :: jet(2:self%strains)
     type(rail_t) :: rail
     real(wp) :: xi, b(self%strains, rail_coordinates), g(rail_coordinates, rail_coordinates)
-    integer :: k, i, j
 
-    jacobian = 0
-    geometric = 0
-    call self%locate(state, k, xi, rail, valid)
+    call self%locate(state, part, xi, rail, valid)
     if (.not. valid) return
     call slider_jets(rail, xi, jet)
     call slider_derivatives(rail, xi, jet, stress, b, g)
-    strain = self%counted(state, k, xi, jet)
-    associate (place => self%track(k)%place)
-      do j = 1, rail_coordinates
-        if (place(j) == 0) cycle
-        jacobian(:, place(j)) = b(:, j)
-        do i = 1, rail_coordinates
-          if (place(i) > 0) geometric(place(i), place(j)) = g(i, j)
-        end do
-      end do
-    end associate
-  end subroutine evaluate
+    strain = self%counted(state, part, xi, jet)
+    jacobian = b(:, self%from)
+    geometric = g(self%from, self%from)
+  end subroutine evaluate_part
 
   !> The strains, the turn of a CARRIAGE through full turns.
   pure function counted(self, state, k, xi, jet) result(strain)

@@ -108,37 +108,16 @@ contains
     call add_rotation(system, state, spin_at(system, level), external, values)
   end subroutine assemble_loads
 
-  !> One element. The work arrays have a fixed size, because automatic ones would be allocated;
-  !> only elements of many nodes need larger ones.
+  !> One element. The work arrays have a fixed size, because automatic ones would be allocated.
   pure subroutine assemble_element(system, e, element, jacobian, iterate)
     type(system_t), intent(in) :: system
     integer, intent(in) :: e
     class(element_t), intent(in) :: element
     real(wp), intent(out) :: jacobian(element%strains, element%coordinates)
     type(iterate_t), intent(inout) :: iterate
-    real(wp) :: tangent(max_coordinates**2), size_of(max_coordinates)
-    real(wp), allocatable :: large_tangent(:), large_size(:)
-
-    if (element%coordinates <= max_coordinates) then
-      call assemble_with(system, e, element, tangent, size_of, jacobian, iterate)
-    else
-      allocate (large_tangent(element%coordinates**2), large_size(element%coordinates))
-      call assemble_with(system, e, element, large_tangent, large_size, jacobian, iterate)
-    end if
-  end subroutine assemble_element
-
-  !> One element, with room for its tangent and the sizes of its coordinates.
-  pure subroutine assemble_with(system, e, element, tangent, size_of, jacobian, iterate)
-    type(system_t), intent(in) :: system
-    integer, intent(in) :: e
-    class(element_t), intent(in) :: element
-    real(wp), intent(inout) :: tangent(element%coordinates, element%coordinates)
-    real(wp), intent(inout) :: size_of(element%coordinates)
-    real(wp), intent(out) :: jacobian(element%strains, element%coordinates)
-    type(iterate_t), intent(inout) :: iterate
     real(wp), dimension(max_strains) :: strain, stress
-    real(wp) :: law(max_strains**2)
-    integer :: first, last, n
+    real(wp) :: law(max_strains**2), tangent(max_coordinates**2)
+    integer :: first, last, n, part
     logical :: valid
 
     n = element%strains
@@ -146,7 +125,12 @@ contains
     last = system%first(e + 1)
     stress = 0
     if (.not. iterate%keeps_matrix) stress(:n) = iterate%stress(first:last)
-    call element%evaluate(iterate%state, stress, strain, jacobian, tangent, valid)
+    if (allocated(element%part)) then
+      call evaluate_part(element, size(element%part, 1), iterate%state, stress, part, strain, &
+                         jacobian, tangent, valid)
+    else
+      call element%evaluate(iterate%state, stress, strain, jacobian, tangent, valid)
+    end if
     if (.not. valid) then
       iterate%invalid = e
       return
@@ -162,10 +146,51 @@ contains
     end if
     call add_forces(system, element, first, jacobian, stress, iterate)
     if (iterate%keeps_matrix) return
-    call add_stiffness(element, jacobian, law, tangent)
-    call add_noise(element, tangent, size_of, iterate)
-    call add_element(system, e, element, tangent, jacobian, iterate%values)
-  end subroutine assemble_with
+    if (allocated(element%part)) then
+      associate (at => element%part(:, part))
+        call add_tangent(system, e, system%parts(e) + part, size(at), element%coordinate(at), &
+                         jacobian(:, at), law, tangent, iterate)
+      end associate
+    else
+      call add_tangent(system, e, e, element%coordinates, element%coordinate, jacobian, law, &
+                       tangent, iterate)
+    end if
+  end subroutine assemble_element
+
+  !> One part of an element; its Jacobian among that of all coordinates.
+  pure subroutine evaluate_part(element, n, state, stress, part, strain, jacobian, tangent, valid)
+    class(element_t), intent(in) :: element
+    integer, intent(in) :: n               !< coordinates of a part
+    type(state_t), intent(in) :: state
+    real(wp), intent(in) :: stress(element%strains)
+    integer, intent(out) :: part
+    real(wp), intent(out) :: strain(element%strains)
+    real(wp), intent(out) :: jacobian(element%strains, element%coordinates), tangent(n, n)
+    logical, intent(out) :: valid
+    real(wp) :: mine(element%strains, n)
+
+    call element%evaluate_part(state, stress, part, strain, mine, tangent, valid)
+    if (.not. valid) return
+    jacobian = 0
+    jacobian(:, element%part(:, part)) = mine
+  end subroutine evaluate_part
+
+  !> Add the tangent of an element, for its coordinates or those of a part.
+  pure subroutine add_tangent(system, e, block, n, at, jacobian, law, tangent, iterate)
+    type(system_t), intent(in) :: system
+    integer, intent(in) :: e, block
+    integer, intent(in) :: n, at(n)        !< coordinates, and their numbers
+    real(wp), intent(in) :: jacobian(system%element(e)%e%strains, n)
+    real(wp), intent(in) :: law(*)
+    real(wp), intent(inout) :: tangent(n, n)
+    type(iterate_t), intent(inout) :: iterate
+
+    associate (element => system%element(e)%e)
+      call add_stiffness(element%strains, n, jacobian, law, tangent)
+      call add_noise(element, n, at, tangent, iterate)
+      call add_element(system, e, block, n, tangent, jacobian, iterate%values)
+    end associate
+  end subroutine add_tangent
 
   pure subroutine multiply(n, matrix, vector, product)
     integer, intent(in) :: n
@@ -204,35 +229,36 @@ contains
   end subroutine add_forces
 
   !> tangent + D' S D, with the products of the columns j and i <= j of D alone.
-  pure subroutine add_stiffness(element, jacobian, law, tangent)
-    class(element_t), intent(in) :: element
-    real(wp), intent(in) :: jacobian(element%strains, element%coordinates)
-    real(wp), intent(in) :: law(element%strains, element%strains)
-    real(wp), intent(inout) :: tangent(element%coordinates, element%coordinates)
+  pure subroutine add_stiffness(strains, n, jacobian, law, tangent)
+    integer, intent(in) :: strains, n
+    real(wp), intent(in) :: jacobian(strains, n)
+    real(wp), intent(in) :: law(strains, strains)
+    real(wp), intent(inout) :: tangent(n, n)
     real(wp) :: rate(max_strains)
     integer :: i, j
 
-    do j = 1, element%coordinates
-      call multiply(element%strains, law, jacobian(:, j), rate)
+    do j = 1, n
+      call multiply(strains, law, jacobian(:, j), rate)
       do i = 1, j
-        tangent(i, j) = tangent(i, j) + dot_product(jacobian(:, i), rate(:element%strains))
+        tangent(i, j) = tangent(i, j) + dot_product(jacobian(:, i), rate(:strains))
         tangent(j, i) = tangent(i, j)
       end do
     end do
   end subroutine add_stiffness
 
   !> Round-off to expect in the forces of an element.
-  pure subroutine add_noise(element, tangent, size_of, iterate)
+  pure subroutine add_noise(element, n, at, tangent, iterate)
     class(element_t), intent(in) :: element
-    real(wp), intent(in) :: tangent(element%coordinates, element%coordinates)
-    real(wp), intent(inout) :: size_of(element%coordinates)
+    integer, intent(in) :: n, at(n)
+    real(wp), intent(in) :: tangent(n, n)
     type(iterate_t), intent(inout) :: iterate
+    real(wp) :: size_of(max_coordinates)
     integer :: j
 
-    call coordinate_sizes(element, iterate%state, size_of)
-    do j = 1, element%coordinates
-      associate (noise => iterate%noise(element%coordinate(j)))
-        noise = noise + dot_product(abs(tangent(:, j)), size_of)
+    call coordinate_sizes(element, n, at, iterate%state, size_of)
+    do j = 1, n
+      associate (noise => iterate%noise(at(j)))
+        noise = noise + dot_product(abs(tangent(:, j)), size_of(:n))
       end associate
     end do
   end subroutine add_noise
@@ -260,15 +286,16 @@ contains
 
   !> What round-off in a coordinate is relative to: displacements and the element's size, one
   !> radian, alpha.
-  pure subroutine coordinate_sizes(element, state, size_of)
+  pure subroutine coordinate_sizes(element, n, at, state, size_of)
     class(element_t), intent(in) :: element
+    integer, intent(in) :: n, at(n)
     type(state_t), intent(in) :: state
-    real(wp), intent(out) :: size_of(element%coordinates)
+    real(wp), intent(out) :: size_of(n)
     integer :: i, node, component
 
-    do i = 1, element%coordinates
-      node = (element%coordinate(i) - 1)/node_coordinates + 1
-      component = element%coordinate(i) - node_coordinates*(node - 1)
+    do i = 1, n
+      node = (at(i) - 1)/node_coordinates + 1
+      component = at(i) - node_coordinates*(node - 1)
       size_of(i) = 1
       if (node > size(state%warping)) then
         size_of(i) = element%size
@@ -282,32 +309,30 @@ contains
   end subroutine coordinate_sizes
 
   !> Add an element's tangent and constraint rows to the entries.
-  pure subroutine add_element(system, e, element, tangent, jacobian, values)
+  pure subroutine add_element(system, e, block, n, tangent, jacobian, values)
     type(system_t), intent(in) :: system
-    integer, intent(in) :: e
-    class(element_t), intent(in) :: element
-    real(wp), intent(in) :: tangent(element%coordinates, element%coordinates)
-    real(wp), intent(in) :: jacobian(element%strains, element%coordinates)
+    integer, intent(in) :: e, block, n
+    real(wp), intent(in) :: tangent(n, n)
+    real(wp), intent(in) :: jacobian(:, :)
     real(wp), intent(inout) :: values(:)
     real(wp), allocatable :: bordered(:, :)
-    integer :: i, n, row
+    integer :: i, row
 
-    n = element%coordinates
-    if (system%pattern%width(e) == n) then
-      call add_block(system%pattern, e, tangent, values)
+    if (system%pattern%width(block) == n) then
+      call add_block(system%pattern, block, tangent, values)
       return
     end if
-    allocate (bordered(system%pattern%width(e), system%pattern%width(e)))
+    allocate (bordered(system%pattern%width(block), system%pattern%width(block)))
     bordered = 0
     bordered(:n, :n) = tangent
     row = n
-    do i = 1, element%strains
+    do i = 1, size(jacobian, 1)
       if (system%multiplier(system%first(e) + i) == 0) cycle
       row = row + 1
       bordered(row, :n) = jacobian(i, :)
       bordered(:n, row) = jacobian(i, :)
     end do
-    call add_block(system%pattern, e, bordered, values)
+    call add_block(system%pattern, block, bordered, values)
   end subroutine add_element
 
   !> Right-hand side of the mixed Newton step: loads minus forces of the strains; what the held
