@@ -26,6 +26,7 @@ contains
     call run("slider: a moving force on a beam, against the series of Fryba", moving_force)
     call run("slider: energy of a mass that slides along a flexing beam", energy)
     call run("slider: around half a circle of straight beams", arch)
+    call run("slider: frequencies, buckling and damping", small_motions)
     call run("slider: who left its beam, and when", over_the_end)
   end subroutine run_slider_motions_tests
 
@@ -247,5 +248,30 @@ contains
     call expect(index(error%message, "beyond time 1.41") > 0, "when: "//error%message)
     call expect(index(error%message, "element 5 (slider) leaves its beam") > 0, "who")
   end subroutine over_the_end
+
+  !> Small motions: the forces of a slider have a stiffness of their own, its mode a spring and a
+  !> damper. Rod with a spring k at its foot and a mass or force at s: w^2 = (k + m g s)/(m s^2),
+  !> P = k/s; a mass on a rail: w = 10, a tenth of the critical damping twice.
+  subroutine small_motions()
+    real(wp), parameter :: s = 2.5_wp, ratio = 0.2_wp, w = 10*sqrt(1 - ratio**2)
+    type(memory_t) :: memory
+    type(model_t) :: model
+    real(wp) :: t
+    integer :: i
+
+    call run_sound(folder//"pendulum", memory, model)
+    call expect_close(2*pi*memory%spectrum(1)%frequency(1), sqrt((5 + 20*s)/(2*s**2)), 1.0e-9_wp, &
+                      "swing")
+    call run_sound(folder//"inverted", memory, model)
+    call expect_close(memory%spectrum(1)%multiplier(1), 30/s, 1.0e-9_wp, "buckling")
+    call run_sound(folder//"damped", memory, model)
+    call expect_close([memory%spectrum(1)%frequency(1), memory%spectrum(1)%damping(1)], &
+                      [w/(2*pi), ratio], 1.0e-9_wp, "damped")
+    do i = 2, memory%steps
+      t = (i - 1)*0.1_wp
+      call expect_close(memory%results(i)%joint_strain(1, 1), exp(-10*ratio*t)*sin(w*t)/w, &
+                        1.0e-5_wp, "damped motion")
+    end do
+  end subroutine small_motions
 
 end module test_slider_motions
