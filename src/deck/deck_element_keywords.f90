@@ -4,7 +4,8 @@ module deck_element_keywords
   use deck_element_cards, only: read_beamw, read_beam, read_dyne, read_rlse, read_estiff, read_em, &
                                 read_edamp, read_esig
   use deck_joint_cards, only: read_truss, read_hinge, read_universal, read_spherical, &
-                              read_cylindrical, read_prismatic, read_gear, read_slider, read_carriage
+                              read_cylindrical, read_prismatic, read_gear, read_slider, &
+                              read_carriage
   use deck_motion_cards, only: read_inputx, read_inpute, read_delinpx, read_delinpe, read_startx, &
                                read_startdx, read_startde, read_xm
   implicit none

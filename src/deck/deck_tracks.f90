@@ -110,8 +110,8 @@ contains
       do k = 1, size(joint%track)
         if (all(model%member(joint%track(k))%node(translational, :) /= node)) cycle
         call draft%report%add_error(joint%place, name//" is a node of the beams that "// &
-          kind_of(joint)//" "//to_text(joint%id)//" runs along", "the node that runs along them "// &
-          "is another one, at the same place or between their nodes")
+          kind_of(joint)//" "//to_text(joint%id)//" runs along", "the node that runs along "// &
+          "them is another one, at the same place or between their nodes")
         return
       end do
       if (.not. model%node(node)%placed) return

@@ -181,7 +181,7 @@ contains
     integer, intent(in) :: e, block
     integer, intent(in) :: n, at(n)        !< coordinates, and their numbers
     real(wp), intent(in) :: jacobian(system%element(e)%e%strains, n)
-    real(wp), intent(in) :: law(*)
+    real(wp), intent(in) :: law(system%element(e)%e%strains**2)
     real(wp), intent(inout) :: tangent(n, n)
     type(iterate_t), intent(inout) :: iterate
 

@@ -194,7 +194,8 @@ contains
     do e = 1, size(system%element)
       start(e) = n + 1
       associate (element => system%element(e)%e)
-        if (.not. allocated(element%part)) call add_members(system, e, element%coordinate, member, n)
+        if (allocated(element%part)) cycle
+        call add_members(system, e, element%coordinate, member, n)
       end associate
     end do
     symmetric = .true.

@@ -6,7 +6,7 @@ module test_deck_joints
   use model_data, only: model_t, type_beam, type_beamw, mass_lumped, &
                         mode_fixed, mode_flexible, mode_released, mode_prescribed, joint_truss, &
                         joint_hinge, joint_universal, joint_spherical, joint_cylindrical, &
-                        joint_prismatic, joint_gear, joint_slider, joint_carriage, rotational
+                        joint_prismatic, joint_gear
   use deck_samples, only: read_sample, read_sound, frame
   implicit none
   private
@@ -27,7 +27,6 @@ contains
     call run("deck: TRUSS", trusses)
     call run("deck: joints, their nodes, axes and free modes", joints)
     call run("deck: GEAR", gears)
-    call run("deck: SLIDER and CARRIAGE", sliders)
     call run("deck: status of the modes of joints, lists", statuses)
     call run("deck: ESTIFF, EDAMP, ESIG of joints, lists", properties)
     call run("deck: INPUTE", strains)
@@ -186,28 +185,6 @@ contains
       call expect(all(gear%status == f) .and. all(gear%node == 0), "one fixed mode, no nodes")
     end associate
   end subroutine gears
-
-  !> Along a part and a divided beam, in the order of a group; along ALL that are beams.
-  subroutine sliders()
-    type(model_t) :: model
-
-    call read_sound(frame//"FIX 1|NODE 3 8 0 0|BEAM 2 2 3 DIVIDE 3|NODE 9 5 0 0|"// &
-                    "SLIDER 3 9 ALONG line|GROUP line ELEMENTS 1 2.1:2.2|"// &
-                    "CARRIAGE 4 19 ALONG ALL|NODE 19 1 0.5 0|DYNE 3 1|EDAMP 3 2", model)
-    call expect(size(model%joint) == 2, "the sizes")
-    if (size(model%joint) /= 2) return
-    associate (slider => model%joint(1), carriage => model%joint(2))
-      call expect(slider%kind == joint_slider .and. carriage%kind == joint_carriage, "kinds")
-      call expect(all(slider%track == [1, 2, 3]) .and. all(carriage%track == [1, 2, 3, 4]), "beams")
-      call expect(all(slider%status(:3) == [e, f, f]), "three modes")
-      call expect(all(carriage%status == [r, f, f, f, f, f]), "six modes")
-      call expect(all(model%node(slider%node(:1, 2))%id == 9) .and. all(slider%node(:, 1) == 0) &
-                  .and. slider%node(2, 2) == 0, "the node of the slider")
-      call expect(all(model%node(carriage%node(:, 2))%id == 19), "the node of the carriage")
-      call expect(.not. model%node(slider%node(1, 2))%exists(rotational) .and. &
-                  model%node(carriage%node(1, 2))%exists(rotational), "what exists")
-    end associate
-  end subroutine sliders
 
   subroutine statuses()
     type(model_t) :: model

@@ -113,7 +113,8 @@ contains
       call expect(element%coordinates == merge(34, 31, kind == 2), "every coordinate once")
       do i = 1, 5
         call deformed(element, way(i), i, state)
-        call compare_with_differences(element, state, trim(merge("carriage", "slider  ", kind == 2)))
+        call compare_with_differences(element, state, &
+                                      trim(merge("carriage", "slider  ", kind == 2)))
       end do
     end do
   end subroutine differences

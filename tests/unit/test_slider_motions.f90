@@ -3,7 +3,9 @@ module test_slider_motions
   use kinds, only: wp
   use check, only: run, expect, expect_close
   use errors, only: error_t, exit_solve
-  use model_data, only: model_t
+  use deck_samples, only: read_sound, frame
+  use model_data, only: model_t, joint_slider, joint_carriage, rotational, mode_fixed, &
+                        mode_flexible, mode_released
   use memory_recorder, only: memory_t, run_deck, run_sound, node_index
   use rotation, only: cross
   use text, only: to_text
@@ -18,6 +20,7 @@ module test_slider_motions
 contains
 
   subroutine run_slider_motions_tests()
+    call run("slider: cards", cards)
     call run("slider: a load driven along a supported beam", supported)
     call run("slider: forces and moments balance on a beam bent far", bent)
     call run("slider: a bead on an incline, s = g sin(a) t^2/2", incline)
@@ -273,5 +276,28 @@ contains
                         1.0e-5_wp, "damped motion")
     end do
   end subroutine small_motions
+
+  !> Along a part and a divided beam, in the order of a group; along ALL that are beams.
+  subroutine cards()
+    integer, parameter :: f = mode_fixed
+    type(model_t) :: model
+
+    call read_sound(frame//"FIX 1|NODE 3 8 0 0|BEAM 2 2 3 DIVIDE 3|NODE 9 5 0 0|"// &
+                    "SLIDER 3 9 ALONG line|GROUP line ELEMENTS 1 2.1:2.2|"// &
+                    "CARRIAGE 4 19 ALONG ALL|NODE 19 1 0.5 0|DYNE 3 1|EDAMP 3 2", model)
+    call expect(size(model%joint) == 2, "the sizes")
+    if (size(model%joint) /= 2) return
+    associate (slider => model%joint(1), carriage => model%joint(2))
+      call expect(slider%kind == joint_slider .and. carriage%kind == joint_carriage, "kinds")
+      call expect(all(slider%track == [1, 2, 3]) .and. all(carriage%track == [1, 2, 3, 4]), "beams")
+      call expect(all(slider%status(:3) == [mode_flexible, f, f]), "three modes")
+      call expect(all(carriage%status == [mode_released, f, f, f, f, f]), "six modes")
+      call expect(all(model%node(slider%node(:1, 2))%id == 9) .and. all(slider%node(:, 1) == 0) &
+                  .and. slider%node(2, 2) == 0, "the node of the slider")
+      call expect(all(model%node(carriage%node(:, 2))%id == 19), "the node of the carriage")
+      call expect(.not. model%node(slider%node(1, 2))%exists(rotational) .and. &
+                  model%node(carriage%node(1, 2))%exists(rotational), "what exists")
+    end associate
+  end subroutine cards
 
 end module test_slider_motions
