@@ -30,6 +30,7 @@ contains
     call run("slider: energy of a mass that slides along a flexing beam", energy)
     call run("slider: around half a circle of straight beams", arch)
     call run("slider: frequencies, buckling and damping", small_motions)
+    call run("slider: the trolley of the examples", trolley)
     call run("slider: who left its beam, and when", over_the_end)
   end subroutine run_slider_motions_tests
 
@@ -238,6 +239,33 @@ contains
       end associate
     end do
   end subroutine arch
+
+  !> Reactions under the weights of trolley and girder, which moves along little; the axles keep
+  !> their distance, the front one goes where it is driven.
+  subroutine trolley()
+    real(wp), parameter :: g = 9.81_wp, weight = 1400*g, span = 12
+    type(memory_t) :: memory
+    type(model_t) :: model
+    real(wp) :: girder
+    integer :: i
+
+    call run_sound("../../../decks/trolley", memory, model)
+    call expect(memory%steps == 2 + 61, "all steps")
+    associate (section => model%section(1)%constants)
+      girder = 7850*section%a*g*span
+    end associate
+    associate (now => memory%results(2))
+      call expect_close(now%reaction(3, 1), 0.75_wp*weight + girder/2, 1.0e-3_wp*weight, "reaction")
+      call expect_close(sum(now%reaction(3, :)), weight + girder, 1.0e-6_wp*weight, "weights")
+      call expect_close(-sum(now%joint_stress(3, :)), weight, 1.0e-5_wp*weight, "axles")
+    end associate
+    do i = 3, memory%steps
+      associate (way => memory%results(i)%joint_strain(1, :), t => min(4.0_wp, (i - 3)*0.1_wp))
+        call expect_close(way(2), 3*(1 - cos(pi*t/4)), 1.0e-10_wp, "driven")
+        call expect_close(way(1), way(2), 1.0e-4_wp, "distance")
+      end associate
+    end do
+  end subroutine trolley
 
   subroutine over_the_end()
     type(memory_t) :: memory
