@@ -65,7 +65,7 @@ contains
 
     column = derivative
     component = modulo(element%coordinate(j) - 1, node_coordinates) + 1
-    if (component < 4) return
+    if (component < 4 .or. component > 6) return
     first = j - component + 4
     axis = identity3(:, component - 3)
     column(first:first + 2) = column(first:first + 2) &
