@@ -14,14 +14,15 @@ import re
 import sys
 import tempfile
 
-from problems import (buckling, channel, flexures, frequencies, mechanisms, motions, paths, static,
-                      turning)
+from problems import (buckling, channel, flexures, frequencies, mechanisms, motions, paths, sliders,
+                      static, turning)
 from problems.kit import ROOT, Bench, short
 
 PAGE = ROOT / "docs" / "validation.md"
 PROBLEMS = [*static.PROBLEMS, *flexures.PROBLEMS, *channel.PROBLEMS, *paths.PROBLEMS,
             *buckling.PROBLEMS, *frequencies.PROBLEMS, *motions.PROBLEMS,
-            *motions.FROM_VELOCITIES, *mechanisms.PROBLEMS, *turning.PROBLEMS]
+            *motions.FROM_VELOCITIES, *mechanisms.PROBLEMS, *sliders.PROBLEMS,
+            *turning.PROBLEMS]
 SAME = 2e-5  # what the same program may differ by on another machine, with rounding of the page
 NUMBER = re.compile(r"[-+]?\d+(?:\.\d+)?(?:e[-+]?\d+)?")
 

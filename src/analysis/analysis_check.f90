@@ -27,7 +27,7 @@ module analysis_check
   public :: check_t, finding_t, check_model
 
   !> Kinds of elements that are counted, and what is said of strains.
-  character(len=11), parameter, public :: element_names(9) = &
+  character(len=11), parameter, public :: element_names(11) = &
     ["BEAMW      ", "BEAM       ", joint_names]
   character(len=10), parameter, public :: status_names(0:3) = &
     ["fixed     ", "flexible  ", "released  ", "prescribed"]

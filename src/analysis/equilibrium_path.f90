@@ -2,8 +2,9 @@
 module equilibrium_path
   use kinds, only: wp
   use errors, only: error_t, fail, exit_deck, exit_solve
-  use text, only: to_text, plural
-  use model_data, only: model_t, analysis_t, control_displacement
+  use text, only: to_text, plural, lower
+  use model_data, only: model_t, analysis_t, control_displacement, joint_slider, joint_carriage, &
+                        joint_names
   use nodal_state, only: state_t
   use system_data, only: system_t
   use system_assembly, only: iterate_t
@@ -80,12 +81,28 @@ contains
     case (newton_slow)
       words = "not converged after "//plural(outcome%last%iteration, "iteration")
     case (newton_distorted)
-      words = member_name(model, outcome%element)//" turns too far within itself"
-      if (outcome%element <= size(model%member)) words = words//": divide it"
+      words = distortion(model, outcome%element)
     case default
       words = "the iteration diverged"
     end select
   end function reason
+
+  !> What ails an element that cannot be as it is.
+  pure function distortion(model, element) result(words)
+    type(model_t), intent(in) :: model
+    integer, intent(in) :: element
+    character(len=:), allocatable :: words
+    integer :: joint
+
+    words = member_name(model, element)//" turns too far within itself"
+    joint = element - size(model%member)
+    if (joint <= 0) then
+      words = words//": divide it"
+    else if (any(model%joint(joint)%kind == [joint_slider, joint_carriage])) then
+      words = member_name(model, element)//" ("//lower(trim(joint_names(model%joint(joint)%kind))) &
+              //") leaves its beam"
+    end if
+  end function distortion
 
   pure function newton_options(analysis) result(options)
     type(analysis_t), intent(in) :: analysis

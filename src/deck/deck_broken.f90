@@ -28,7 +28,7 @@ contains
     case ("NODE", "X")
       call mark_nodes(card, draft)
     case ("BEAMW", "BEAM", "TRUSS", "HINGE", "UNIVERSAL", "SPHERICAL", "CYLINDRICAL", &
-          "PRISMATIC", "GEAR", "")
+          "PRISMATIC", "GEAR", "SLIDER", "CARRIAGE", "")
       call mark_elements(card, draft)
       if (keyword == "") call mark_nodes(card, draft)
     case ("MATERIAL")

@@ -42,7 +42,7 @@ module deck_draft
     record_kept_elements = 33
   integer, parameter, public :: record_damping = 21, record_stress = 22, record_strain = 23, &
     record_coordinate = 24, record_mass = 25, record_gear = 26, record_start = 27, &
-    record_start_strain = 28
+    record_start_strain = 28, record_slider = 29
 
   !> A card about nodes or elements of a list.
   type :: record_t
@@ -66,7 +66,7 @@ module deck_draft
     logical :: before_halt = .false.        !< INPUTX, INPUTE: no HALT stands before it
     logical :: follower = .false.           !< FOLLOWER
     logical :: rate = .false.               !< STARTDX, STARTDE
-    integer :: joint = 0                    !< number of the GEAR
+    integer :: joint = 0                    !< number of the GEAR, SLIDER or CARRIAGE
   end type record_t
 
   !> The card of an element: a beam, or a joint, which `model%joint` holds.

@@ -4,7 +4,8 @@ module deck_element_keywords
   use deck_element_cards, only: read_beamw, read_beam, read_dyne, read_rlse, read_estiff, read_em, &
                                 read_edamp, read_esig
   use deck_joint_cards, only: read_truss, read_hinge, read_universal, read_spherical, &
-                              read_cylindrical, read_prismatic, read_gear
+                              read_cylindrical, read_prismatic, read_gear, read_slider, &
+                              read_carriage
   use deck_motion_cards, only: read_inputx, read_inpute, read_delinpx, read_delinpe, read_startx, &
                                read_startdx, read_startde, read_xm
   implicit none
@@ -79,7 +80,18 @@ contains
       keyword_t("GEAR", "model", "id:id hinge1:element hinge2:element ratio:1", "", &
         "makes the angle of one HINGE the ratio times that of another: its mode is the angle "// &
         "of hinge2 less ratio times the angle of hinge1", &
-        "HINGE 51 2 52 0 0 1|HINGE 52 2 53 0 0 1|RLSE 51:52 1|GEAR 53 51 52 -0.5", "", read_gear)]
+        "HINGE 51 2 52 0 0 1|HINGE 52 2 53 0 0 1|RLSE 51:52 1|GEAR 53 51 52 -0.5", "", read_gear), &
+      keyword_t("SLIDER", "model", "id:id node:node", "ALONG elements:elements!", &
+        "lets a node run along the centroid line of beams, bent as it is: of one, divided or "// &
+        "not, or of several that follow each other. Mode 1, the way along it, is released, "// &
+        "modes 2 and 3, the distances from it along the section's y and z, are fixed. The "// &
+        "node's rotation is free", &
+        "NODE 51 10 0 0|SLIDER 51 51 ALONG 1|XM 51 2|INPUTE 51 1 5", "", read_slider), &
+      keyword_t("CARRIAGE", "model", "id:id node:node", "ALONG elements:elements!", &
+        "is a SLIDER that keeps to the direction of the line as well: modes 4, the turn about "// &
+        "it, 5 and 6, the tilts, are fixed too", &
+        "NODE 51 10 0 0|NODE 52 10 5 0|CARRIAGE 51 51 ALONG 1|INPUTE 51 1 5|BEAM 52 51 52", &
+        "", read_carriage)]
   end function joint_keywords
 
   !> What cards say about the modes of elements.

@@ -3,10 +3,11 @@ module deck_joint_cards
   use kinds, only: wp
   use text, only: to_text
   use model_data, only: joint_t, joint_truss, joint_hinge, joint_universal, joint_spherical, &
-                        joint_cylindrical, joint_prismatic, joint_gear, mass_none, mass_lumped, &
-                        mass_consistent, translational, rotational
+                        joint_cylindrical, joint_prismatic, joint_gear, joint_slider, &
+                        joint_carriage, mass_none, mass_lumped, mass_consistent, translational, &
+                        rotational
   use deck_card, only: card_t
-  use deck_draft, only: draft_t, record_t, record_gear
+  use deck_draft, only: draft_t, record_t, record_gear, record_slider
   use deck_growth, only: grow
   use deck_model_cards, only: node_number, add_selection
   use deck_element_cards, only: beam_number, add_record
@@ -14,7 +15,7 @@ module deck_joint_cards
   private
 
   public :: read_truss, read_hinge, read_universal, read_spherical, read_cylindrical, &
-            read_prismatic, read_gear
+            read_prismatic, read_gear, read_slider, read_carriage
 
   real(wp), parameter :: perpendicular = 1.0e-6_wp  !< largest cosine between two such axes
 
@@ -114,6 +115,42 @@ contains
     call add_selection(card, 4, draft, ok)
     draft%record(draft%records)%to = draft%selections
   end subroutine read_gear
+
+  !> SLIDER id node ALONG elements
+  subroutine read_slider(card, draft)
+    type(card_t), intent(in) :: card
+    type(draft_t), intent(inout) :: draft
+
+    call add_slider(card, draft, joint_slider)
+  end subroutine read_slider
+
+  !> CARRIAGE id node ALONG elements
+  subroutine read_carriage(card, draft)
+    type(card_t), intent(in) :: card
+    type(draft_t), intent(inout) :: draft
+
+    call add_slider(card, draft, joint_carriage)
+  end subroutine read_carriage
+
+  !> The node is that of end q; the beams are found when all cards are read.
+  subroutine add_slider(card, draft, kind)
+    type(card_t), intent(in) :: card
+    type(draft_t), intent(inout) :: draft
+    integer, intent(in) :: kind
+    type(joint_t) :: joint
+    type(record_t) :: record
+    integer :: k, node
+
+    call beam_number(draft, card%whole(2), card%place(2), k)
+    if (k == 0) return
+    call node_number(draft, card%whole(3), card%part(3), card%place(3), node)
+    joint%node(translational, 2) = node
+    if (kind == joint_carriage) joint%node(rotational, 2) = node
+    call keep_joint(card, draft, k, kind, joint)
+    record%kind = record_slider
+    record%joint = draft%joints
+    call add_record(card, card%option(1) + 1, draft, record)
+  end subroutine add_slider
 
   !> The nodes and axes that a joint of this kind has on its card.
   subroutine add_joint(card, draft, kind, joint)

@@ -1,10 +1,12 @@
 !> Completes the joints: references, nodes, the status of their modes without DYNE and RLSE.
 module deck_joints
   use model_data, only: joint_t, joint_hinge, joint_universal, joint_cylindrical, &
-                        joint_prismatic, mode_flexible, mode_released, translational, rotational
+                        joint_prismatic, joint_slider, joint_carriage, mode_flexible, &
+                        mode_released, translational, rotational
   use deck_draft, only: draft_t, record_gear
   use deck_elements, only: element_name, is_whole
   use deck_select, only: choice_t, select_beams
+  use deck_tracks, only: set_tracks
   implicit none
   private
 
@@ -14,17 +16,17 @@ contains
 
   subroutine expand_joints(draft)
     type(draft_t), intent(inout) :: draft
-    integer :: j, kind
+    integer :: j, kind, end
 
     draft%model%joint = draft%model%joint(:draft%joints)
     do j = 1, draft%joints
       associate (joint => draft%model%joint(j), node => draft%model%node)
         joint%section = draft%sections%reference(joint%section)
         joint%material = draft%materials%reference(joint%material)
-        do kind = translational, rotational
-          if (joint%node(kind, 1) == 0) cycle
-          node(joint%node(kind, 1))%exists(kind) = .true.
-          node(joint%node(kind, 2))%exists(kind) = .true.
+        do end = 1, 2
+          do kind = translational, rotational
+            if (joint%node(kind, end) > 0) node(joint%node(kind, end))%exists(kind) = .true.
+          end do
         end do
         if (joint%node(translational, 1) > 0) then
           joint%chord = node(joint%node(translational, 2))%position &
@@ -34,6 +36,7 @@ contains
       end associate
     end do
     call set_gears(draft)
+    call set_tracks(draft)
   end subroutine expand_joints
 
   !> What a joint is made for: its modes that are free unless a card says otherwise.
@@ -43,7 +46,7 @@ contains
     select case (joint%kind)
     case (joint_universal, joint_cylindrical)
       joint%status(:2) = mode_released
-    case (joint_prismatic)
+    case (joint_prismatic, joint_slider, joint_carriage)
       joint%status(1) = mode_released
     case default
       if (joint%section > 0 .and. joint%material > 0) joint%status(1) = mode_flexible

@@ -20,9 +20,14 @@ module element_base
     real(wp) :: size = 0.0_wp                !< its length, for estimates of round-off [L]
     integer :: section_node(2) = 0           !< rotational nodes of its end sections; 0: it has none
     real(wp) :: triad(3, 3) = 0.0_wp         !< initial axes eX eY eZ of the sections
+    !> Of an element of many nodes, else not allocated: (coordinates, parts), the indices in
+    !> `coordinate` of those that the strains depend on together; which part it is depends on the
+    !> state. At most `max_coordinates`.
+    integer, allocatable :: part(:, :)
   contains
     procedure(evaluate_interface), deferred :: evaluate
     procedure(law_interface), deferred :: law
+    procedure :: evaluate_part
     procedure :: damping
     procedure :: count_turns
   end type element_t
@@ -57,6 +62,25 @@ module element_base
   end interface
 
 contains
+
+  !> What `evaluate` does, for the coordinates of one part only; all other derivatives are zero.
+  !> For elements that have parts.
+  pure subroutine evaluate_part(self, state, stress, part, strain, jacobian, geometric, valid)
+    class(element_t), intent(in) :: self
+    type(state_t), intent(in) :: state
+    real(wp), intent(in) :: stress(self%strains)
+    integer, intent(out) :: part                !< which
+    real(wp), intent(out) :: strain(self%strains)
+    real(wp), intent(out) :: jacobian(:, :)     !< (strains, coordinates of a part)
+    real(wp), intent(out) :: geometric(:, :)
+    logical, intent(out) :: valid
+
+    part = 0
+    valid = .false.
+    strain = stress*size(state%warping)
+    jacobian = 0
+    geometric = 0
+  end subroutine evaluate_part
 
   !> Stress resultants per rate of strain; rows of fixed strains are zero. None unless an element
   !> says otherwise.

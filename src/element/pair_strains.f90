@@ -10,7 +10,7 @@ module pair_strains
   private
 
   public :: pair_t, strain_t, axes_product, gap_product, gap_component, gap_elongation
-  public :: angle_of, hinge_angle, unwrapped, aligned, completed_triad
+  public :: angle_of, hinge_angle, unwrapped, aligned, completed_triad, spin_hessian
   public :: operator(+), operator(-)
 
   integer, parameter, public :: pair_coordinates = 9

@@ -28,11 +28,11 @@ module model_data
   !> Types of joints: all elements that are not beams.
   integer, parameter, public :: joint_truss = 1, joint_hinge = 2, joint_universal = 3, &
                                 joint_spherical = 4, joint_cylindrical = 5, joint_prismatic = 6, &
-                                joint_gear = 7
-  character(len=11), parameter, public :: joint_names(7) = &
+                                joint_gear = 7, joint_slider = 8, joint_carriage = 9
+  character(len=11), parameter, public :: joint_names(9) = &
     ["TRUSS      ", "HINGE      ", "UNIVERSAL  ", "SPHERICAL  ", "CYLINDRICAL", "PRISMATIC  ", &
-     "GEAR       "]
-  integer, parameter, public :: joint_modes(7) = [1, 3, 3, 3, 6, 6, 1]  !< number of strains
+     "GEAR       ", "SLIDER     ", "CARRIAGE   "]
+  integer, parameter, public :: joint_modes(9) = [1, 3, 3, 3, 6, 6, 1, 3, 6]  !< of strains
 
   !> Options of a beam.
   integer, parameter, public :: second_none = 0, second_jonker = 1, second_consistent = 2
@@ -136,7 +136,8 @@ module model_data
 
   !> An element that is not a beam. Its strains are lengths [L] or angles [1]; what `node` holds
   !> depends on the kind: translational ends of TRUSS and SPHERICAL in row 1, rotational ends of
-  !> HINGE and UNIVERSAL in row 2, both of CYLINDRICAL and PRISMATIC, none of GEAR.
+  !> HINGE and UNIVERSAL in row 2, both of CYLINDRICAL and PRISMATIC, none of
+  !> GEAR; of SLIDER and CARRIAGE the node that slides, as end q.
   type :: joint_t
     integer :: id = 0
     integer :: kind = joint_truss           !< one of `joint_*`
@@ -145,6 +146,7 @@ module model_data
     real(wp) :: axis(3, 2) = 0.0_wp         !< initially, global: a, and of UNIVERSAL b at q
     integer :: gear(2) = 0                  !< GEAR: the hinges, indices of joints
     real(wp) :: ratio = 1.0_wp              !< GEAR: strain = angle of the second - ratio * first
+    integer, allocatable :: track(:)        !< SLIDER, CARRIAGE: the beams, indices of members
     integer :: section = 0, material = 0    !< TRUSS: indices; 0: none
     integer :: mass = mass_consistent       !< TRUSS: one of `mass_*`
     integer :: status(6) = mode_fixed       !< of each mode, one of `mode_*`

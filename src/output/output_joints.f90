@@ -2,7 +2,7 @@
 module output_joints
   use kinds, only: wp
   use model_data, only: model_t, joint_t, name_length, joint_names, joint_modes, joint_gear, &
-                        joint_universal
+                        joint_universal, joint_slider, joint_carriage
   use output_hdf5, only: hdf5_file_t, about_t
   implicit none
   private
@@ -47,6 +47,7 @@ contains
     call write_names(file, model)
     call write_cards(file, model%joint)
     call write_gears(file, model%joint)
+    call write_tracks(file, model%joint)
   end subroutine write_joints
 
   !> Sections and materials of trusses.
@@ -116,6 +117,28 @@ contains
     call file%write("model/joints/ratio", joint%ratio, about_t("1", "joint", &
                     "of a GEAR: its strain is second angle - ratio * first angle"))
   end subroutine write_gears
+
+  !> The beams of sliders, those of one joint behind those of another.
+  subroutine write_tracks(file, joint)
+    type(hdf5_file_t), intent(inout) :: file
+    type(joint_t), intent(in) :: joint(:)
+    integer, allocatable :: track(:)
+    integer :: beams(size(joint)), i
+
+    beams = 0
+    do i = 1, size(joint)
+      if (any(joint(i)%kind == [joint_slider, joint_carriage])) beams(i) = size(joint(i)%track)
+    end do
+    if (sum(beams) == 0) return
+    allocate (track(sum(beams)))
+    do i = 1, size(joint)
+      if (beams(i) > 0) track(sum(beams(:i - 1)) + 1:sum(beams(:i))) = joint(i)%track - 1
+    end do
+    call file%write("model/joints/beams", beams, about_t("1", "joint", &
+                    "number of beams that a SLIDER or CARRIAGE runs along"))
+    call file%write("model/joints/track", track, about_t("1", "beam", &
+                    "rows of /model/elements, from 0, of all joints in their order"))
+  end subroutine write_tracks
 
   !> Masses and rotary inertias of nodes.
   subroutine write_masses(file, model)

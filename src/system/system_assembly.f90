@@ -119,7 +119,7 @@ contains
     type(iterate_t), intent(inout) :: iterate
     real(wp), dimension(max_strains) :: strain, stress
     real(wp) :: law(max_strains**2), tangent(max_coordinates**2)
-    integer :: first, last, n
+    integer :: first, last, n, part
     logical :: valid, holds
 
     n = element%strains
@@ -131,7 +131,12 @@ contains
     else
       stress = 0
       if (.not. iterate%keeps_matrix) stress(:n) = iterate%stress(first:last)
-      call element%evaluate(iterate%state, stress, strain, jacobian, tangent, valid)
+      if (allocated(element%part)) then
+        call evaluate_part(element, size(element%part, 1), iterate%state, stress, part, strain, &
+                           jacobian, tangent, valid)
+      else
+        call element%evaluate(iterate%state, stress, strain, jacobian, tangent, valid)
+      end if
       if (.not. valid) then
         iterate%invalid = e
         return
@@ -150,12 +155,53 @@ contains
     end if
     call add_forces(system, element, first, jacobian, stress, iterate)
     if (iterate%keeps_matrix) return
-    call add_stiffness(element, jacobian, law, tangent)
-    if (.not. allocated(iterate%velocity)) then
-      call add_noise(element, first, jacobian, tangent, iterate)
+    if (allocated(element%part)) then
+      associate (at => element%part(:, part))
+        call add_tangent(system, e, system%parts(e) + part, size(at), element%coordinate(at), &
+                         jacobian(:, at), law, tangent, iterate)
+      end associate
+    else
+      call add_tangent(system, e, e, element%coordinates, element%coordinate, jacobian, law, &
+                       tangent, iterate)
     end if
-    call add_element(system, e, element, tangent, jacobian, iterate%values)
   end subroutine assemble_element
+
+  !> One part of an element; its Jacobian among that of all coordinates.
+  pure subroutine evaluate_part(element, n, state, stress, part, strain, jacobian, tangent, valid)
+    class(element_t), intent(in) :: element
+    integer, intent(in) :: n               !< coordinates of a part
+    type(state_t), intent(in) :: state
+    real(wp), intent(in) :: stress(element%strains)
+    integer, intent(out) :: part
+    real(wp), intent(out) :: strain(element%strains)
+    real(wp), intent(out) :: jacobian(element%strains, element%coordinates), tangent(n, n)
+    logical, intent(out) :: valid
+    real(wp) :: mine(element%strains, n)
+
+    call element%evaluate_part(state, stress, part, strain, mine, tangent, valid)
+    if (.not. valid) return
+    jacobian = 0
+    jacobian(:, element%part(:, part)) = mine
+  end subroutine evaluate_part
+
+  !> Add the tangent of an element, for its coordinates or those of a part.
+  pure subroutine add_tangent(system, e, block, n, at, jacobian, law, tangent, iterate)
+    type(system_t), intent(in) :: system
+    integer, intent(in) :: e, block
+    integer, intent(in) :: n, at(n)        !< coordinates, and their numbers
+    real(wp), intent(in) :: jacobian(system%element(e)%e%strains, n)
+    real(wp), intent(in) :: law(system%element(e)%e%strains**2)
+    real(wp), intent(inout) :: tangent(n, n)
+    type(iterate_t), intent(inout) :: iterate
+
+    associate (element => system%element(e)%e)
+      call add_stiffness(element%strains, n, jacobian, law, tangent)
+      if (.not. allocated(iterate%velocity)) then
+        call add_noise(element, system%first(e) + 1, n, at, jacobian, tangent, iterate)
+      end if
+      call add_element(system, e, block, n, tangent, jacobian, iterate%values)
+    end associate
+  end subroutine add_tangent
 
   pure subroutine multiply(n, matrix, vector, product)
     integer, intent(in) :: n
@@ -194,26 +240,25 @@ contains
   end subroutine add_forces
 
   !> tangent + D' S D, column by column below the diagonal; most entries of S are zero.
-  pure subroutine add_stiffness(element, jacobian, law, tangent)
-    class(element_t), intent(in) :: element
-    real(wp), intent(in) :: jacobian(element%strains, element%coordinates)
-    real(wp), intent(in) :: law(element%strains, element%strains)
-    real(wp), intent(inout) :: tangent(element%coordinates, element%coordinates)
+  pure subroutine add_stiffness(strains, n, jacobian, law, tangent)
+    integer, intent(in) :: strains, n
+    real(wp), intent(in) :: jacobian(strains, n)
+    real(wp), intent(in) :: law(strains, strains)
+    real(wp), intent(inout) :: tangent(n, n)
     real(wp), dimension(max_coordinates, max_strains) :: row, product
-    integer :: i, j, n
+    integer :: i, j
 
-    n = element%coordinates
     do j = 1, n
-      row(j, :element%strains) = jacobian(:, j)
+      row(j, :strains) = jacobian(:, j)
     end do
-    do j = 1, element%strains
+    do j = 1, strains
       product(:n, j) = 0
-      do i = 1, element%strains
+      do i = 1, strains
         if (abs(law(i, j)) > 0) product(:n, j) = product(:n, j) + row(:n, i)*law(i, j)
       end do
     end do
     do j = 1, n
-      do i = 1, element%strains
+      do i = 1, strains
         if (abs(row(j, i)) > 0) tangent(j:, j) = tangent(j:, j) + product(j:n, i)*row(j, i)
       end do
       do i = j + 1, n
@@ -224,21 +269,21 @@ contains
 
   !> Round-off to expect in the forces of an element: from its coordinates by the tangent, and from
   !> the stresses and multipliers that the forces add up.
-  pure subroutine add_noise(element, first, jacobian, tangent, iterate)
+  pure subroutine add_noise(element, first, n, at, jacobian, tangent, iterate)
     class(element_t), intent(in) :: element
     integer, intent(in) :: first
-    real(wp), intent(in) :: jacobian(element%strains, element%coordinates)
-    real(wp), intent(in) :: tangent(element%coordinates, element%coordinates)
+    integer, intent(in) :: n, at(n)        !< coordinates, and their numbers
+    real(wp), intent(in) :: jacobian(element%strains, n)
+    real(wp), intent(in) :: tangent(n, n)
     type(iterate_t), intent(inout) :: iterate
     real(wp) :: size_of(max_coordinates), stress(max_strains)
-    integer :: j, n
+    integer :: j
 
-    n = element%coordinates
-    call coordinate_sizes(element, iterate%state, size_of)
+    call coordinate_sizes(element, n, at, iterate%state, size_of)
     stress(:element%strains) = epsilon(1.0_wp)* &
                                abs(iterate%stress(first:first + element%strains - 1))
     do j = 1, n
-      associate (noise => iterate%noise(element%coordinate(j)))
+      associate (noise => iterate%noise(at(j)))
         noise = noise + dot_product(abs(tangent(:, j)), size_of(:n)) &
                 + dot_product(abs(jacobian(:, j)), stress(:element%strains))
       end associate
@@ -269,15 +314,16 @@ contains
 
   !> What round-off in a coordinate is relative to: displacements and the element's size, one
   !> radian, alpha.
-  pure subroutine coordinate_sizes(element, state, size_of)
+  pure subroutine coordinate_sizes(element, n, at, state, size_of)
     class(element_t), intent(in) :: element
+    integer, intent(in) :: n, at(n)
     type(state_t), intent(in) :: state
-    real(wp), intent(out) :: size_of(element%coordinates)
+    real(wp), intent(out) :: size_of(n)
     integer :: i, node, component
 
-    do i = 1, element%coordinates
-      node = (element%coordinate(i) - 1)/node_coordinates + 1
-      component = element%coordinate(i) - node_coordinates*(node - 1)
+    do i = 1, n
+      node = (at(i) - 1)/node_coordinates + 1
+      component = at(i) - node_coordinates*(node - 1)
       size_of(i) = 1
       if (node > size(state%warping)) then
         size_of(i) = element%size
@@ -291,20 +337,18 @@ contains
   end subroutine coordinate_sizes
 
   !> Add an element's tangent and constraint rows to the entries.
-  pure subroutine add_element(system, e, element, tangent, jacobian, values)
+  pure subroutine add_element(system, e, block, n, tangent, jacobian, values)
     type(system_t), intent(in) :: system
-    integer, intent(in) :: e
-    class(element_t), intent(in) :: element
-    real(wp), intent(in) :: tangent(element%coordinates, element%coordinates)
-    real(wp), intent(in) :: jacobian(element%strains, element%coordinates)
+    integer, intent(in) :: e, block, n
+    real(wp), intent(in) :: tangent(n, n)
+    real(wp), intent(in) :: jacobian(:, :)
     real(wp), intent(inout) :: values(:)
     real(wp) :: bordered(max_coordinates + max_strains, max_coordinates + max_strains)
-    integer :: i, j, n, row, width
+    integer :: i, j, row, width
 
-    n = element%coordinates
-    width = system%pattern%width(e)
+    width = system%pattern%width(block)
     if (width == n) then
-      call add_block(system%pattern, e, tangent, values)
+      call add_block(system%pattern, block, tangent, values)
       return
     end if
     do j = 1, n
@@ -312,13 +356,13 @@ contains
     end do
     bordered(n + 1:width, n + 1:width) = 0
     row = n
-    do i = 1, element%strains
+    do i = 1, size(jacobian, 1)
       if (system%multiplier(system%first(e) + i) == 0) cycle
       row = row + 1
       bordered(row, :n) = jacobian(i, :)
       bordered(:n, row) = jacobian(i, :)
     end do
-    call add_block(system%pattern, e, bordered(:width, :width), values)
+    call add_block(system%pattern, block, bordered(:width, :width), values)
   end subroutine add_element
 
   !> Right-hand side of the mixed Newton step: loads minus forces of the strains; what the held

@@ -175,7 +175,8 @@ contains
   end subroutine number_multipliers
 
   !> Sparsity with a block for each element, coordinates then multipliers, for each node with mass
-  !> of its own, translation and rotation, and for each load, the
+  !> of its own, translation and rotation, for each part of elements of many nodes, and for each
+  !> load, the
   !> rotation and alpha of its node and the releases it leans by, or the translation of a follower.
   !> Followers, and dead moments where more than one axis is free, make the tangent unsymmetric
   !> (theory 6).
@@ -186,20 +187,15 @@ contains
     integer :: e, i, n, blocks
     logical :: symmetric
 
-    blocks = size(system%element) + size(system%load) + size(system%mass_node)
+    call number_parts(system, blocks)
     allocate (start(blocks + 1), member(sum([(width(system, e), e=1, size(system%element))]) &
                                         + 7*size(system%load) + 6*size(system%mass_node)))
     n = 0
     do e = 1, size(system%element)
       start(e) = n + 1
       associate (element => system%element(e)%e)
-        member(n + 1:n + element%coordinates) = system%unknown(element%coordinate)
-        n = n + element%coordinates
-        do i = 1, element%strains
-          if (system%multiplier(system%first(e) + i) == 0) cycle
-          n = n + 1
-          member(n) = system%multiplier(system%first(e) + i)
-        end do
+        if (allocated(element%part)) cycle
+        call add_members(system, e, element%coordinate, member, n)
       end associate
     end do
     symmetric = .true.
@@ -226,17 +222,62 @@ contains
       member(n + 1:n + 6) = system%unknown(coordinate_number(system%mass_node(i), [(e, e=1, 6)]))
       n = n + 6
     end do
+    do e = 1, size(system%element)
+      associate (element => system%element(e)%e)
+        if (.not. allocated(element%part)) cycle
+        do i = 1, size(element%part, 2)
+          start(system%parts(e) + i) = n + 1
+          call add_members(system, e, element%coordinate(element%part(:, i)), member, n)
+        end do
+      end associate
+    end do
     start(blocks + 1) = n + 1
     if (present(unsymmetric)) symmetric = symmetric .and. .not. unsymmetric
     call find_pattern(system%equations(), start, member(:n), symmetric, system%pattern)
   end subroutine find_system_pattern
 
-  !> Size of an element's block at the most.
+  !> Blocks of elements, which are empty for those that have parts, of loads and nodes with mass,
+  !> and those of the parts behind them.
+  pure subroutine number_parts(system, blocks)
+    type(system_t), intent(inout) :: system
+    integer, intent(out) :: blocks
+    integer :: e
+
+    blocks = size(system%element) + size(system%load) + size(system%mass_node)
+    system%parts = spread(0, 1, size(system%element))
+    do e = 1, size(system%element)
+      if (.not. allocated(system%element(e)%e%part)) cycle
+      system%parts(e) = blocks
+      blocks = blocks + size(system%element(e)%e%part, 2)
+    end do
+  end subroutine number_parts
+
+  !> The unknowns of coordinates and the multipliers of an element, as members of a block.
+  pure subroutine add_members(system, e, coordinate, member, n)
+    type(system_t), intent(in) :: system
+    integer, intent(in) :: e, coordinate(:)
+    integer, intent(inout) :: member(:), n
+    integer :: i
+
+    member(n + 1:n + size(coordinate)) = system%unknown(coordinate)
+    n = n + size(coordinate)
+    do i = system%first(e) + 1, system%first(e + 1)
+      if (system%multiplier(i) == 0) cycle
+      n = n + 1
+      member(n) = system%multiplier(i)
+    end do
+  end subroutine add_members
+
+  !> Size of an element's block, or of those of its parts together, at the most.
   pure integer function width(system, e)
     type(system_t), intent(in) :: system
     integer, intent(in) :: e
 
-    width = system%element(e)%e%coordinates + count(system%element(e)%e%fixed)
+    associate (element => system%element(e)%e)
+      width = element%coordinates + count(element%fixed)
+      if (allocated(element%part)) width = size(element%part) &
+                                           + size(element%part, 2)*count(element%fixed)
+    end associate
   end function width
 
 end module system_build

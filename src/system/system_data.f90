@@ -107,6 +107,7 @@ module system_data
     integer, allocatable :: unknown(:)    !< by coordinate: number of its unknown; 0: held
     logical, allocatable :: used(:)       !< by coordinate: an element depends on it
     integer, allocatable :: first(:)      !< by element: strains before its own; one more at the end
+    integer, allocatable :: parts(:)      !< by element with parts: their blocks start behind this
     integer, allocatable :: jacobian(:)   !< by element: entries of Jacobians before its own
     integer, allocatable :: multiplier(:) !< by strain: number of its unknown; 0: none
     logical, allocatable :: dropped(:)    !< by strain: fixed, but follows from other constraints

@@ -7,7 +7,8 @@ module system_dependence
   use kinds, only: wp
   use errors, only: error_t
   use model_data, only: model_t, mode_flexible, mode_prescribed, joint_hinge, &
-                        joint_universal, joint_cylindrical, joint_prismatic, joint_truss
+                        joint_universal, joint_cylindrical, joint_prismatic, joint_truss, &
+                        joint_carriage
   use nodal_state, only: state_t, node_coordinates
   use element_base, only: element_t
   use linalg_solver, only: solver_t
@@ -362,6 +363,8 @@ contains
           if (mode >= 2) loss = 2
         case (joint_cylindrical, joint_prismatic)
           loss = merge(2, 4, mode > 4)
+        case (joint_carriage)
+          if (mode >= 4) loss = 2
         case (joint_truss)
           loss = 4
         case default

@@ -90,8 +90,14 @@ contains
     integer :: e
 
     do e = 1, size(system%element)
-      call add_element(system, e, system%element(e)%e, iterate, &
-                       stress(system%first(e) + 1:system%first(e + 1)), values)
+      associate (element => system%element(e)%e, &
+                 mine => stress(system%first(e) + 1:system%first(e + 1)))
+        if (allocated(element%part)) then
+          call add_part(system, e, size(element%part, 1), iterate, mine, values)
+        else
+          call add_element(system, e, element, iterate, mine, values)
+        end if
+      end associate
     end do
   end subroutine add_geometric
 
@@ -109,6 +115,22 @@ contains
     call element%evaluate(iterate%state, stress, strain, jacobian, geometric, valid)
     if (valid) call add_block(system%pattern, e, geometric, values)
   end subroutine add_element
+
+  !> The same of an element with parts.
+  pure subroutine add_part(system, e, n, iterate, stress, values)
+    type(system_t), intent(in) :: system
+    integer, intent(in) :: e, n              !< n: coordinates of a part
+    type(iterate_t), intent(in) :: iterate
+    real(wp), intent(in) :: stress(:)
+    real(wp), intent(inout) :: values(:)
+    real(wp) :: strain(size(stress)), jacobian(size(stress), n), geometric(n, n)
+    integer :: part
+    logical :: valid
+
+    call system%element(e)%e%evaluate_part(iterate%state, stress, part, strain, jacobian, &
+                                           geometric, valid)
+    if (valid) call add_block(system%pattern, system%parts(e) + part, geometric, values)
+  end subroutine add_part
 
   !> Whether the tangent is symmetric for all motions that the supports allow, although dead
   !> moments act: an element that holds rotations leaves only turns about one axis, or turns about

@@ -2,7 +2,8 @@
 module system_joints
   use kinds, only: wp
   use model_data, only: model_t, joint_t, mode_fixed, mode_flexible, mode_prescribed, joint_modes, &
-                        joint_truss, joint_hinge, joint_universal, joint_spherical, joint_gear
+                        joint_truss, joint_hinge, joint_universal, joint_spherical, joint_gear, &
+                        joint_slider, joint_carriage
   use element_base, only: element_t
   use element_truss, only: new_element_truss
   use element_hinge, only: new_element_hinge
@@ -10,6 +11,8 @@ module system_joints
   use element_spherical, only: new_element_spherical
   use element_cylindrical, only: new_element_cylindrical
   use element_gear, only: new_element_gear
+  use element_slider, only: track_t, new_element_slider
+  use system_inertia, only: mass_shear_centre
   use system_data, only: system_t
   implicit none
   private
@@ -29,7 +32,7 @@ contains
       slot(i) = system%angles + 1
       select case (model%joint(i)%kind)
       case (joint_truss, joint_spherical, joint_gear)
-      case (joint_universal)
+      case (joint_universal, joint_carriage)
         system%angles = system%angles + 2
       case default
         system%angles = system%angles + 1
@@ -74,11 +77,33 @@ contains
                               reshape([a%axis(:, 1), b%axis(:, 1)], [3, 2]), slots(joint%gear), &
                               joint%ratio, fixed(:n), stiffness(:n), damping(:n), element)
       end associate
+    case (joint_slider, joint_carriage)
+      call new_element_slider(joint%node(:, 2), model%node(joint%node(1, 2))%position, &
+                              track_of(model, joint), fixed(:n), stiffness(:n), damping(:n), slot, &
+                              element)
     case default
       call new_element_cylindrical(joint%node, joint%chord, joint%axis(:, 1), fixed, stiffness, &
                                    damping, slot, element)
     end select
   end subroutine make_joint
+
+  !> The beams that a slider runs along.
+  pure function track_of(model, joint) result(track)
+    type(model_t), intent(in) :: model
+    type(joint_t), intent(in) :: joint
+    type(track_t) :: track(size(joint%track))
+    integer :: k
+
+    do k = 1, size(track)
+      associate (member => model%member(joint%track(k)))
+        track(k)%node = member%node
+        track(k)%start = model%node(member%node(1, 1))%position
+        track(k)%chord = member%chord
+        track(k)%triad = member%triad
+        track(k)%shear_centre = mass_shear_centre(model, member)
+      end associate
+    end do
+  end function track_of
 
   !> Stiffness and damping by mode, zero where it is not flexible; of a truss over its length, with
   !> the damping of its material and Rayleigh's.

@@ -82,8 +82,13 @@ contains
 
     do e = 1, size(system%element)
       if (.not. system%element(e)%e%damped) cycle
-      associate (jacobian => iterate%jacobian(system%jacobian(e) + 1:system%jacobian(e + 1)))
-        call add_element(system, e, system%element(e)%e, jacobian, values)
+      associate (element => system%element(e)%e, &
+                 jacobian => iterate%jacobian(system%jacobian(e) + 1:system%jacobian(e + 1)))
+        if (allocated(element%part)) then
+          call add_part(system, e, size(element%part, 1), iterate, values)
+        else
+          call add_element(system, e, element, jacobian, values)
+        end if
       end associate
     end do
   end subroutine add_damping
@@ -100,5 +105,26 @@ contains
     call add_block(system%pattern, e, matmul(transpose(jacobian), matmul(viscosity, jacobian)), &
                    values)
   end subroutine add_element
+
+  !> The same of an element with parts, where the iterate was assembled.
+  pure subroutine add_part(system, e, n, iterate, values)
+    type(system_t), intent(in) :: system
+    integer, intent(in) :: e, n           !< n: coordinates of a part
+    type(iterate_t), intent(in) :: iterate
+    real(wp), intent(inout) :: values(:)
+    real(wp), dimension(system%first(e + 1) - system%first(e)) :: strain, none
+    real(wp) :: jacobian(size(none), n), unused(n, n), viscosity(size(none), size(none))
+    integer :: part
+    logical :: valid
+
+    none = 0
+    associate (element => system%element(e)%e)
+      call element%evaluate_part(iterate%state, none, part, strain, jacobian, unused, valid)
+      if (.not. valid) return
+      call element%damping(viscosity)
+    end associate
+    call add_block(system%pattern, system%parts(e) + part, &
+                   matmul(transpose(jacobian), matmul(viscosity, jacobian)), values)
+  end subroutine add_part
 
 end module system_linear

@@ -48,6 +48,12 @@ contains
       associate (element => system%element(e)%e)
         if (held_only .and. .not. any(element%fixed)) cycle
         if (.not. any(abs(velocity(element%coordinate)) > 0)) cycle
+        if (allocated(element%part)) then
+          call part_convection(element, size(element%part, 1), state, &
+                               velocity(element%coordinate), held_only, &
+                               rate(system%first(e) + 1:system%first(e + 1)))
+          cycle
+        end if
         call element_convection(element, state, velocity(element%coordinate), held_only, &
                                 rate(system%first(e) + 1:system%first(e + 1)))
       end associate
@@ -74,6 +80,31 @@ contains
       if (valid) rate(i) = dot_product(velocity, matmul(geometric, velocity))
     end do
   end subroutine element_convection
+
+  !> The same of an element with parts.
+  pure subroutine part_convection(element, n, state, velocity, held_only, rate)
+    class(element_t), intent(in) :: element
+    integer, intent(in) :: n              !< coordinates of a part
+    type(state_t), intent(in) :: state
+    real(wp), intent(in) :: velocity(element%coordinates)
+    logical, intent(in) :: held_only
+    real(wp), intent(inout) :: rate(element%strains)
+    real(wp) :: stress(element%strains), strain(element%strains)
+    real(wp) :: jacobian(element%strains, n), geometric(n, n)
+    integer :: i, part
+    logical :: valid
+
+    do i = 1, element%strains
+      if (held_only .and. .not. element%fixed(i)) cycle
+      stress = 0
+      stress(i) = 1
+      call element%evaluate_part(state, stress, part, strain, jacobian, geometric, valid)
+      if (.not. valid) return
+      associate (v => velocity(element%part(:, part)))
+        rate(i) = dot_product(v, matmul(geometric, v))
+      end associate
+    end do
+  end subroutine part_convection
 
   !> D'S strain, by coordinate: the forces of strains by their law; of an assembled iterate.
   pure subroutine strain_forces(system, iterate, strain, force)

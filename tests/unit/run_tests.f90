@@ -18,6 +18,8 @@ program run_tests
   use test_element_beamw, only: run_element_beamw_tests
   use test_element_joints, only: run_element_joints_tests
   use test_joint_motions, only: run_joint_motions_tests
+  use test_slider, only: run_slider_tests
+  use test_slider_motions, only: run_slider_motions_tests
   use test_beamw_inertia, only: run_beamw_inertia_tests
   use test_inertia_tangent, only: run_inertia_tangent_tests
   use test_rotating_inertia, only: run_rotating_inertia_tests
@@ -85,6 +87,8 @@ program run_tests
   call run_element_beamw_tests()
   call run_element_joints_tests()
   call run_joint_motions_tests()
+  call run_slider_tests()
+  call run_slider_motions_tests()
   call run_beamw_inertia_tests()
   call run_inertia_tangent_tests()
   call run_rotating_inertia_tests()

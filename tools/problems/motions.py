@@ -10,8 +10,8 @@ G = 9.81
 class Motion:
     """A run in time: times, places of nodes, energies and momentum by step."""
 
-    def __init__(self, bench, deck, **settings):
-        self.results = bench.run(f"{DECKS}/{deck}.deck", **settings)
+    def __init__(self, bench, deck, folder=DECKS, **settings):
+        self.results = bench.run(f"{folder}/{deck}.deck", **settings)
         self.group = self.results.analysis("transient")
         self.time = self.group["time"][()]
 
