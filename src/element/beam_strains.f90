@@ -4,7 +4,7 @@
 !> coordinates of p and q; the chord stands for r^q - r^p.
 module beam_strains
   use kinds, only: wp
-  use rotation, only: cross, outer, add_skew, identity3
+  use rotation, only: cross, outer, skew, identity3
   use beam_angles, only: angle_ratio
   implicit none
   private
@@ -73,38 +73,25 @@ contains
   pure subroutine chord_in_section(k, i)
     type(kinematics_t), intent(inout) :: k
     integer, intent(in) :: i  !< end
-    real(wp) :: n(3), inverse
     integer :: j
 
-    n = k%n
-    inverse = 1/k%length
     do j = 1, 3
-      associate (axis => k%triad(:, j, i))
-        k%c(j, i) = n(1)*axis(1) + n(2)*axis(2) + n(3)*axis(3)
-        k%dn(:, j, i) = (axis - k%c(j, i)*n)*inverse
-        k%dr(1, j, i) = axis(2)*n(3) - axis(3)*n(2)   ! axis x n
-        k%dr(2, j, i) = axis(3)*n(1) - axis(1)*n(3)
-        k%dr(3, j, i) = axis(1)*n(2) - axis(2)*n(1)
-      end associate
+      k%c(j, i) = dot_product(k%n, k%triad(:, j, i))
+      k%dn(:, j, i) = (k%triad(:, j, i) - k%c(j, i)*k%n)/k%length
+      k%dr(:, j, i) = cross(k%triad(:, j, i), k%n)
     end do
   end subroutine chord_in_section
 
   !> Sine and cosine of the relative twist: a = (Zp.Yq - Yp.Zq)/2, b = (Yp.Yq + Zp.Zq)/2.
   pure subroutine twist(k)
     type(kinematics_t), intent(inout) :: k
-    integer, parameter :: next(3) = [2, 3, 1]
-    integer :: i, j, l
 
     associate (yp => k%triad(:, 2, 1), zp => k%triad(:, 3, 1), &
                yq => k%triad(:, 2, 2), zq => k%triad(:, 3, 2))
       k%sine = 0.5_wp*(dot_product(zp, yq) - dot_product(yp, zq))
       k%cosine = 0.5_wp*(dot_product(yp, yq) + dot_product(zp, zq))
-      do i = 1, 3   ! da = (zp x yq - yp x zq)/2, db = (yp x yq + zp x zq)/2
-        j = next(i)
-        l = next(j)
-        k%da(i) = 0.5_wp*(zp(j)*yq(l) - zp(l)*yq(j) - yp(j)*zq(l) + yp(l)*zq(j))
-        k%db(i) = 0.5_wp*(yp(j)*yq(l) - yp(l)*yq(j) + zp(j)*zq(l) - zp(l)*zq(j))
-      end do
+      k%da = 0.5_wp*(cross(zp, yq) - cross(yp, zq))
+      k%db = 0.5_wp*(cross(yp, yq) + cross(zp, zq))
     end associate
   end subroutine twist
 
@@ -279,7 +266,7 @@ contains
     type(kinematics_t), intent(in) :: k
     real(wp), intent(in) :: t(6)
     real(wp), intent(inout) :: h(9, 9)
-    real(wp) :: w(3, 2), total(3), across(3), x(6), y(6), along, stretch, slope(2)
+    real(wp) :: w(3, 2), total(3), across(3), x(6), y(6), m(3, 3), along, slope(2)
     integer :: e, i, j, r
 
     w = 0
@@ -299,45 +286,19 @@ contains
             (slope(1)*[k%dn(:, 2, e), k%dr(:, 2, e)] + slope(2)*[k%dn(:, 3, e), k%dr(:, 3, e)])
         call add_end(h, r, x, y)
       end if
-      across = k%triad(:, 1, e)*w(1, e) + k%triad(:, 2, e)*w(2, e) + k%triad(:, 3, e)*w(3, e)
+      across = matmul(k%triad(:, :, e), w(:, e))
       total = total + across
-      along = dot_product(k%n, across)
-      do i = 1, 3
-        h(r + 1:r + 3, r + i) = h(r + 1:r + 3, r + i) + 0.5_wp*(k%n*across(i) + across*k%n(i))
-        h(r + i, r + i) = h(r + i, r + i) - along
-      end do
-      call add_chord_spin(k, across, r, h)
+      m = 0.5_wp*(outer(k%n, across) + outer(across, k%n)) - dot_product(k%n, across)*identity3
+      h(r + 1:r + 3, r + 1:r + 3) = h(r + 1:r + 3, r + 1:r + 3) + m
+      m = -matmul(identity3 - outer(k%n, k%n), skew(across))/k%length
+      h(1:3, r + 1:r + 3) = h(1:3, r + 1:r + 3) + m
+      h(r + 1:r + 3, 1:3) = h(r + 1:r + 3, 1:3) + transpose(m)
     end do
     along = dot_product(total, k%n)
     across = (total - along*k%n)/k%length**2
-    stretch = t(1)/k%length - along/k%length**2
-    do i = 1, 3
-      h(1:3, i) = h(1:3, i) - across*k%n(i) - k%n*across(i) - stretch*k%n*k%n(i)
-      h(i, i) = h(i, i) + stretch
-    end do
+    h(1:3, 1:3) = h(1:3, 1:3) - outer(across, k%n) - outer(k%n, across) &
+                  + (t(1)/k%length - along/k%length**2)*(identity3 - outer(k%n, k%n))
   end subroutine bending_curvature
-
-  !> The derivative of n . a to the chord and to a spin that turns a: -(1 - n n') skew(a)/l, and its
-  !> transpose; rows of the spin from r + 1.
-  pure subroutine add_chord_spin(k, a, r, h)
-    type(kinematics_t), intent(in) :: k
-    real(wp), intent(in) :: a(3)
-    integer, intent(in) :: r
-    real(wp), intent(inout) :: h(9, 9)
-    real(wp) :: m(3, 3), b(3)
-    integer :: i, j
-
-    b = cross(a, k%n)   ! -n' skew(a)
-    m = 0
-    call add_skew(-1/k%length, a, m)
-    do j = 1, 3
-      do i = 1, 3
-        m(i, j) = m(i, j) - k%n(i)*b(j)/k%length
-        h(i, r + j) = h(i, r + j) + m(i, j)
-        h(r + j, i) = h(r + j, i) + m(i, j)
-      end do
-    end do
-  end subroutine add_chord_spin
 
   !> Add x y' + y x' for vectors of the chord (1:3) and the spin in rows r + 1 to r + 3 (4:6).
   pure subroutine add_end(h, r, x, y)

@@ -20,6 +20,10 @@ module linalg_solver
   integer, parameter, public :: default_dense_limit = 150  !< unknowns up to which dense is faster
   integer, parameter, public :: default_band_limit = 40    !< width up to which a band is faster
 
+  !> Fewer unknowns than this are dense: there the exchange of more rows costs nothing, and leaves
+  !> more digits where a mechanism passes a singular position.
+  integer, parameter :: fewest_in_band = 60
+
   integer, parameter :: dense_symmetric = 1, dense_general = 2, sparse = 3, banded = 4
 
   type, public :: solver_t
@@ -65,7 +69,7 @@ contains
     call self%free()
     most = default_dense_limit
     if (present(dense_limit)) most = dense_limit
-    widest = min(default_band_limit, n/4)
+    widest = merge(min(default_band_limit, n/4), -1, n >= fewest_in_band)
     if (present(band_limit)) widest = band_limit
     if (size(row) /= size(column) .or. any(min(row, column) < 1 .or. max(row, column) > n)) then
       call fail(error, exit_solve, "solver: entries outside a matrix of "//to_text(n)//" unknowns")
