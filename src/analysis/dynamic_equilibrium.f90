@@ -29,7 +29,7 @@ module dynamic_equilibrium
 
   public :: dynamics_t, new_dynamics, take_step, release_dynamics
   public :: assemble_motion, set_shares, correct_velocity, held_entries, by_coordinate
-  public :: by_unknown, inertia_of
+  public :: by_unknown, inertia_of, largest_gap, constraint_tolerance
 
   !> Fixed strains are on their targets to this part of the model's length.
   real(wp), parameter :: constraint_tolerance = 1.0e-12_wp

@@ -2,18 +2,19 @@
 !> and multipliers that satisfy the equations of motion.
 module dynamic_start
   use kinds, only: wp
-  use errors, only: error_t
+  use errors, only: error_t, fail, exit_solve
   use model_data, only: model_t
   use nodal_state, only: state_t, node_coordinates
   use rotation, only: cross
   use system_data, only: system_t
-  use system_assembly, only: iterate_t, right_hand_side
+  use system_assembly, only: iterate_t, right_hand_side, advance
   use system_motion, only: target_rates
   use system_rates, only: strain_rates, convective_rates, held_forces
   use system_inertia, only: find_massive
   use generalized_alpha, only: flow_t
   use dynamic_equilibrium, only: dynamics_t, assemble_motion, set_shares, held_entries, &
-                                 by_coordinate, by_unknown, inertia_of
+                                 by_coordinate, by_unknown, inertia_of, largest_gap, &
+                                 constraint_tolerance
   use start_assembly, only: assemble_model
   use start_velocity, only: find_velocities
   use singular_refusal, only: leave_singular
@@ -25,6 +26,10 @@ module dynamic_start
   !> The accelerations come from the matrix of a step this part of the first one's length: the
   !> stiffness then weighs 1e-4 of what it does there.
   real(wp), parameter, public :: part_of_step = 1.0e-2_wp
+
+  !> Iterations that close gaps behind a jump; smaller gaps, in lengths of the model, are none.
+  integer, parameter :: most_closings = 20, enough_closings = 3
+  real(wp), parameter :: no_jump = 1.0e-9_wp
 
 contains
 
@@ -65,7 +70,8 @@ contains
     call set_shares(motion, h)
     share = motion%scheme%acceleration_share(h)
     motion%shares%acceleration = share
-    call assemble_here(motion, level)
+    call close_places(level, motion, error)
+    if (allocated(error)) return
     call motion%solver%factorize(motion%iterate%values, error)
     if (allocated(error)) return
     if (motion%system%multipliers > 0) then
@@ -93,6 +99,31 @@ contains
     motion%flow%step = 0
     call assemble_here(motion, level)
   end subroutine restart_motion
+
+  !> Put held strains on targets that have jumped, by the motion of least mass times square that does
+  !> it; with the shares of a very short step. Left assembled.
+  subroutine close_places(level, motion, error)
+    real(wp), intent(in) :: level(:)
+    type(dynamics_t), intent(inout) :: motion
+    type(error_t), allocatable, intent(out) :: error
+    real(wp) :: solution(motion%system%equations()), change(motion%system%coordinates), gap
+    integer :: iteration
+
+    do iteration = 0, most_closings
+      call assemble_here(motion, level)
+      if (motion%iterate%invalid > 0) exit
+      gap = largest_gap(motion)/motion%system%length
+      if (gap <= constraint_tolerance) return
+      if (gap <= no_jump .and. (iteration == 0 .or. iteration > enough_closings)) return
+      call motion%solver%factorize(motion%iterate%values, error)
+      if (allocated(error)) return
+      solution = held_entries(motion%system, motion%iterate%target - motion%iterate%strain)
+      call motion%solver%solve(solution, error)
+      if (allocated(error)) return
+      call advance(motion%system, solution, 1.0_wp, motion%iterate, change)
+    end do
+    call fail(error, exit_solve, "a prescribed motion jumps farther than the model can follow")
+  end subroutine close_places
 
   !> Solve [M, C'; C, 0] x = b, M times the share of accelerations, by the factors of a very short
   !> step: of what its damping and stiffness have added, a part of the order of h, a second solution

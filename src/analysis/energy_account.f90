@@ -32,13 +32,15 @@ contains
     call reopen_account(motion, account)
   end subroutine open_account
 
-  !> Begin new trapezes with the present forces, after they jumped. If velocities did too, a drive
-  !> gave them the difference of their energy to `kinetic`, that before [F L].
+  !> Begin new trapezes with the present forces, after they jumped. Where prescribed motions did too
+  !> that was work, and if velocities did, a drive gave them the difference of their energy to
+  !> `kinetic`, that before [F L].
   subroutine reopen_account(motion, account, kinetic)
     type(dynamics_t), intent(in) :: motion
     type(account_t), intent(inout) :: account
     real(wp), intent(in), optional :: kinetic
 
+    if (allocated(account%target)) account%motion = account%motion + drive_work(motion, account)
     account%external = motion%iterate%external
     account%stress = motion%iterate%stress
     account%target = motion%iterate%target
@@ -56,9 +58,7 @@ contains
     associate (now => motion%iterate)
       account%loads = account%loads &
                       + 0.5_wp*dot_product(account%external + now%external, increment)
-      account%motion = account%motion - 0.5_wp* &
-        sum((account%stress + now%stress)*(now%target - account%target), &
-            motion%system%multiplier > 0)
+      account%motion = account%motion + drive_work(motion, account)
       power = lost_power(motion)
       account%dissipated = account%dissipated + 0.5_wp*h*(account%power + power)
       account%power = power
@@ -67,6 +67,17 @@ contains
       account%target = now%target
     end associate
   end subroutine enter_step
+
+  !> Of prescribed motions, since the account's forces and targets [F L].
+  pure real(wp) function drive_work(motion, account) result(work)
+    type(dynamics_t), intent(in) :: motion
+    type(account_t), intent(in) :: account
+
+    associate (now => motion%iterate)
+      work = -0.5_wp*sum((account%stress + now%stress)*(now%target - account%target), &
+                         motion%system%multiplier > 0)
+    end associate
+  end function drive_work
 
   !> Energy of the strains that have a law.
   pure real(wp) function strain_energy(motion) result(energy)

@@ -20,6 +20,7 @@ contains
     call run("multipliers: order 2 of a driving torque, at speed from the start on", drive_order)
     call run("multipliers: order 2 across kinks of a drive, whose blows are its work", kinks)
     call run("multipliers: a drive that jumps is told", jumping_drive)
+    call run("multipliers: a mass on a spring whose support jumps", jumping_support)
     call run("multipliers: torque of a measured motion, as SPLINE and as TABLE", measured)
     call run("multipliers: velocities satisfy the constraints", exact_velocities)
     call run("multipliers: no growth without numerical damping", no_growth)
@@ -171,6 +172,33 @@ contains
     call expect(index(motion%remarks(1)%s, "element 2 mode 1 (hinge) jumps at time 0.305") > 0, &
                 "what jumps, and when")
   end subroutine jumping_drive
+
+  !> x = d (1 - cos(w t)) from the jump on; it puts k d**2/2 into the spring.
+  subroutine jumping_support()
+    real(wp), parameter :: d = 0.01_wp, w = 5, k = 50
+    type(motion_t) :: motion
+    type(model_t) :: model
+    real(wp) :: error(2), balance(2), x
+    integer :: i, j
+
+    error = 0
+    balance = 0
+    do j = 1, 2
+      call follow("jumping_support", motion, model, [setting("h", 0.02_wp/2**j)])
+      if (motion%steps < 2) return
+      do i = 1, motion%steps
+        x = d*(1 - cos(w*max(motion%time(i) - 0.2_wp, 0.0_wp)))
+        associate (r => motion%results(i))
+          error(j) = max(error(j), abs(r%displacement(1, 2) - x))
+          balance(j) = max(balance(j), abs(r%energy(6)))
+        end associate
+      end do
+      call expect_close(motion%results(motion%steps)%energy(4), 0.5_wp*k*d**2, &
+                        1.0e-6_wp*0.5_wp*k*d**2, "work of the jump")
+    end do
+    call expect_close(observed_order(error(1:1), error(2:2)), 2.0_wp, 0.1_wp, "order of the place")
+    call expect(balance(2) < 0.3_wp*balance(1), "what is missing in the account goes with h**2")
+  end subroutine jumping_support
 
   !> Through points of a sine 0.05 apart a spline's second derivative is off by 0.05**2/12 of the
   !> fourth one, away from the ends; a table has none, which is told.
