@@ -11,6 +11,7 @@ module analysis_buckling
   use linalg_solver, only: solver_t
   use linalg_eigen, only: pencil_t, pairs_t, estimate_theta
   use linalg_spectrum, only: find_spectrum, count_between
+  use linalg_equality, only: are_equal
   use system_data, only: system_t
   use system_assembly, only: iterate_t, assemble, pattern_direction
   use system_blocks, only: half_t, new_half, fold
@@ -130,6 +131,8 @@ contains
       call find_spectrum(solver, pencil, kept, available, pairs, modes%complete, error)
       if (allocated(error)) return
       kept = min(kept, pairs%found)
+      modes%cut = [cut_behind(pairs%found(1) + kept(2), sum(pairs%found)), &
+                   cut_behind(kept(1), pairs%found(1))]
     end if
     do k = pairs%found(1) + kept(2), pairs%found(1) + 1, -1
       call add_pair(k)
@@ -142,6 +145,15 @@ contains
     if (.not. allocated(error)) call say(modes, available, recorder)
 
   contains
+
+    !> Whether pair k, the last one kept of its sign, has an equal among those behind.
+    logical function cut_behind(k, last)
+      integer, intent(in) :: k, last
+
+      cut_behind = .false.
+      if (k > 0 .and. k < last) cut_behind = are_equal(cmplx(pairs%theta(k), kind=wp), &
+                                                       cmplx(pairs%theta(k + 1), kind=wp))
+    end function cut_behind
 
     subroutine add_pair(k)
       integer, intent(in) :: k

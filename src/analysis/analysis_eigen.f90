@@ -11,6 +11,7 @@ module analysis_eigen
   use linalg_solver, only: solver_t
   use linalg_eigen, only: pencil_t, pairs_t, estimate_theta
   use linalg_spectrum, only: find_spectrum, count_between
+  use linalg_equality, only: are_equal
   use nodal_state, only: node_coordinates
   use system_data, only: system_t
   use system_assembly, only: iterate_t, assemble
@@ -172,7 +173,8 @@ contains
     type(modes_t), intent(out) :: modes
     type(error_t), allocatable, intent(out) :: error
     type(pairs_t) :: pairs
-    real(wp) :: shift, zero
+    real(wp), allocatable :: value(:)
+    real(wp) :: shift
     integer :: n
 
     call find_shift(model, system, solver, pencil, shift, error)
@@ -183,9 +185,12 @@ contains
                        [2*pencil%coordinates - pencil%equations, 0], pairs, modes%complete, error)
     if (allocated(error)) return
     n = min(n, pairs%found(1))
-    modes%eigenvalue = 1/pairs%theta(:n) + shift
-    zero = zero_eigenvalue*abs(shift)
-    where (abs(modes%eigenvalue) <= zero) modes%eigenvalue = 0
+    value = 1/pairs%theta(:pairs%found(1)) + shift
+    where (abs(value) <= zero_eigenvalue*abs(shift)) value = 0
+    modes%eigenvalue = value(:n)
+    if (n > 0 .and. n < size(value)) then
+      modes%cut(2) = are_equal(cmplx(value(n), kind=wp), cmplx(value(n + 1), kind=wp))
+    end if
     modes%frequency = sqrt(max(0.0_wp, modes%eigenvalue))/(2*pi)
     modes%imaginary = sqrt(max(0.0_wp, -modes%eigenvalue))/(2*pi)
     modes%damping = 0*modes%eigenvalue

@@ -75,6 +75,7 @@ contains
     n = spectrum%found
     modes%modes = n
     modes%complete = spectrum%complete
+    modes%cut(2) = spectrum%cut
     modes%lambda = spectrum%lambda(:n)
     allocate (modes%damping(n))
     modes%damping = -real(modes%lambda)/max(abs(modes%lambda), tiny(1.0_wp))

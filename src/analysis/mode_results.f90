@@ -63,6 +63,7 @@ module mode_results
     real(wp) :: rigid_mass(6) = 0.0_wp              !< EIGEN: all mass, inertia about the centre
     real(wp) :: centre(3) = 0.0_wp                  !< EIGEN: centre of mass [L]
     logical :: complete = .true.                    !< no eigenvalue is missing between them
+    logical :: cut(2) = .false.                     !< first, last one has an equal not in the list
     type(shapes_t), allocatable :: quadrature       !< EIGEN, complex: imaginary parts
     type(matrices_t), allocatable :: matrices       !< EIGEN with MATRICES ON
     character(len=40), allocatable :: unknown(:)    !< names of their rows

@@ -130,7 +130,8 @@ contains
       "NaN differs from everything. What is below R/1000 of the largest entry of a dataset or of", &
       "what it follows from, counts as round-off (docs/results.md). Whole numbers and texts have", &
       "to be equal.", &
-      "Modes are compared up to their sign, those of equal eigenvalues as the space they span.", &
+      "Modes are compared up to their sign, complex ones up to their phase, those of equal", &
+      "eigenvalues as the space they span, not those whose eigenvalue the end of the list cuts.", &
       "/VTKHDF, /restart and convergence are left out unless --only names them.", &
       "Exit status: 0 no differences, 1 some, 2 usage, 5 a file cannot be read"
   end subroutine print_compare
@@ -144,7 +145,8 @@ contains
       "  --digits N         digits of a number; default 6", &
       "", &
       "No digit is printed below 1e-(N+3) of the largest entry of a dataset or of what it", &
-      "follows from, so that round-off does not show (docs/results.md)."
+      "follows from, so that round-off does not show (docs/results.md). Of modes of equal", &
+      "eigenvalues nothing else is printed."
   end subroutine print_digest
 
   subroutine print_info(unit)

@@ -8,6 +8,7 @@ module linalg_quadratic
   use errors, only: error_t, fail, exit_solve
   use linalg_solver, only: solver_t
   use linalg_symmetric, only: entries_t, compress, multiply_general
+  use linalg_equality, only: are_equal
   use linalg_companion, only: companion_t, new_companion, find_all, find_largest
   implicit none
   private
@@ -51,6 +52,7 @@ module linalg_quadratic
     complex(wp), allocatable :: lambda(:)        !< [1/T]
     complex(wp), allocatable :: vector(:, :)     !< (equations, found), and multipliers
     logical :: complete = .false.                !< all eigenvalues are known
+    logical :: cut = .false.                     !< the last one has an equal that is left out
   end type spectrum_t
 
 contains
@@ -152,13 +154,15 @@ contains
     allocate (spectrum%lambda(min(wanted, size(mu))))
     allocate (spectrum%vector(problem%equations, size(spectrum%lambda)))
     do i = 1, size(mu)
-      if (spectrum%found == size(spectrum%lambda)) return
       k = minloc(distance, 1)
       distance(k) = huge(1.0_wp)
+      if (spectrum%found > 0) spectrum%cut = are_equal(lambda(k), spectrum%lambda(spectrum%found))
+      if (spectrum%found == size(spectrum%lambda) .and. .not. spectrum%cut) return
       if (.not. abs(lambda(k)) > 0) then
         if (depends(vector(:, k), spectrum%vector(companion%active, :spectrum%found), &
                     companion%weight)) cycle
       end if
+      if (spectrum%found == size(spectrum%lambda)) return
       call complete_vector(solver, companion, m, g, mu(k), vector(:, k), x, change, error)
       if (allocated(error)) return
       if (.not. change <= lost) cycle
@@ -166,6 +170,7 @@ contains
       spectrum%lambda(spectrum%found) = lambda(k)
       spectrum%vector(:, spectrum%found) = x
     end do
+    spectrum%cut = .false.
   end subroutine keep_nearest
 
   !> Whether a vector is, all but a thousandth, a sum of others.

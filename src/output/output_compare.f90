@@ -7,7 +7,8 @@ module output_compare
   use output_reader, only: reader_t, dataset_t, kind_other, kind_whole, kind_text
   use output_differences, only: differences_t, tolerance_t, index_text, noise
   use output_scales, only: get_length, get_scales, column_scales
-  use mode_compare, only: is_mode_dataset, compare_modes
+  use mode_clusters, only: is_mode_dataset
+  use mode_compare, only: compare_modes
   implicit none
   private
 

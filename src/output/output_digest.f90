@@ -6,6 +6,7 @@ module output_digest
   use text, only: string_t, to_text
   use output_reader, only: reader_t, dataset_t, kind_whole, kind_text
   use output_scales, only: get_length, get_scales
+  use mode_clusters, only: clusters_t, is_mode_dataset, get_clusters, group_of
   implicit none
   private
 
@@ -28,6 +29,7 @@ contains
     type(string_t), allocatable :: paths(:)
     type(dataset_t) :: dataset
     real(wp), allocatable :: scale(:)
+    logical, allocatable :: shared(:)
     real(wp) :: length
     integer :: i, k
 
@@ -43,20 +45,39 @@ contains
       if (index(paths(i)%s, "/convergence/") > 0) cycle
       call reader%read(paths(i)%s, dataset, error)
       if (allocated(error)) exit
-      call get_scales(reader, length, dataset, scale, error)
+      call get_shared(reader, dataset, shared, error)
       if (allocated(error)) exit
-      call write_dataset(unit, dataset, digits, scale)
+      call get_scales(reader, length, dataset, scale, error, shared)
+      if (allocated(error)) exit
+      call write_dataset(unit, dataset, digits, scale, shared)
     end do
     call reader%close()
   end subroutine write_digest
 
-  !> Path and shape, then a line for each row.
-  subroutine write_dataset(unit, dataset, digits, scale)
+  !> By mode, of a dataset of modes: whether other modes have the eigenvalue, so that only the space
+  !> they span is known, and a machine prints other numbers than the next; none of other datasets.
+  subroutine get_shared(reader, dataset, shared, error)
+    type(reader_t), intent(in) :: reader
+    type(dataset_t), intent(in) :: dataset
+    logical, allocatable, intent(out) :: shared(:)
+    type(error_t), allocatable, intent(out) :: error
+    type(clusters_t) :: clusters
+    integer :: i
+
+    allocate (shared(0))
+    if (.not. is_mode_dataset(reader, dataset)) return
+    call get_clusters(reader, group_of(dataset%path), clusters, error)
+    if (.not. allocated(error)) shared = clusters%is_shared([(i, i=1, size(clusters%first))])
+  end subroutine get_shared
+
+  !> Path and shape, then a line for each row, or one for all of a mode that is shared.
+  subroutine write_dataset(unit, dataset, digits, scale, shared)
     integer, intent(in) :: unit, digits
     type(dataset_t), intent(in) :: dataset
     real(wp), intent(in) :: scale(:)   !< by column, see `rounded`
+    logical, intent(in) :: shared(:)   !< by mode; none: no dataset of modes
     character(len=:), allocatable :: line
-    integer :: columns, k
+    integer :: columns, k, mode
     integer(i8) :: i
 
     columns = dataset%columns()
@@ -73,6 +94,15 @@ contains
     end if
     line = ""
     do i = 1, size(dataset%value, kind=i8)
+      if (size(shared) > 0) then
+        mode = 1 + int((i - 1)*size(shared)/size(dataset%value, kind=i8))
+        if (shared(mode)) then
+          if (modulo((i - 1)*size(shared), size(dataset%value, kind=i8)) == 0) then
+            write (unit, "(a, i0, a)") "  mode ", mode, ": others have its eigenvalue"
+          end if
+          cycle
+        end if
+      end if
       k = 1 + int(modulo(i - 1, int(columns, i8)))
       if (dataset%kind == kind_whole) then
         line = line//" "//to_text(nint(dataset%value(i)))

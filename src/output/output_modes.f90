@@ -18,11 +18,14 @@ contains
     character(len=*), intent(in) :: group
     type(modes_t), intent(in) :: modes
 
-    if (allocated(modes%multiplier)) then
+    if (allocated(modes%multiplier) .or. allocated(modes%frequency)) then
       call file%set_number(group, "spectrum_complete", merge(1, 0, modes%complete))
+      call file%set_number(group, "cut_first", merge(1, 0, modes%cut(1)))
+      call file%set_number(group, "cut_last", merge(1, 0, modes%cut(2)))
+    end if
+    if (allocated(modes%multiplier)) then
       call write_multipliers(file, group, modes)
     else if (allocated(modes%frequency)) then
-      call file%set_number(group, "spectrum_complete", merge(1, 0, modes%complete))
       call write_frequencies(file, group, modes)
     end if
     call write_nodes(file, group//"/modes", modes)

@@ -42,26 +42,42 @@ contains
 
   !> By column: the largest entry of the dataset, and of those that it has its round-off from: of
   !> real parts beside imaginary ones, of energies beside their sum, of loads beside reactions, of
-  !> rotations beside displacements.
-  subroutine get_scales(reader, length, dataset, scale, error)
+  !> rotations beside displacements. Of modes those that are shared may be left out.
+  subroutine get_scales(reader, length, dataset, scale, error, shared)
     type(reader_t), intent(in) :: reader
     real(wp), intent(in) :: length      !< of the model, 0: unknown
     type(dataset_t), intent(in) :: dataset
     real(wp), allocatable, intent(out) :: scale(:)
     type(error_t), allocatable, intent(out) :: error
+    logical, intent(in), optional :: shared(:)   !< by mode
     type(string_t), allocatable :: paths(:)
-    type(dataset_t) :: other
+    type(dataset_t) :: own, other
     integer :: i
 
-    scale = column_scales(dataset, length)
+    own = dataset
+    if (present(shared)) call clear_shared(shared, own)
+    scale = column_scales(own, length)
     call get_companions(reader, dataset%path, paths)
     do i = 1, size(paths)
       if (.not. reader%has(paths(i)%s)) cycle
       call reader%read(paths(i)%s, other, error)
       if (allocated(error)) return
+      if (present(shared)) call clear_shared(shared, other)
       scale = max(scale, scales_from(other, dataset, length))
     end do
   end subroutine get_scales
+
+  !> Zero in place of the values of modes that are shared.
+  pure subroutine clear_shared(shared, dataset)
+    logical, intent(in) :: shared(:)   !< by mode
+    type(dataset_t), intent(inout) :: dataset
+    integer :: rows, k
+
+    rows = size(dataset%value)/max(1, size(shared))
+    do k = 1, size(shared)
+      if (shared(k)) dataset%value((k - 1)*rows + 1:k*rows) = 0
+    end do
+  end subroutine clear_shared
 
   subroutine get_companions(reader, path, paths)
     type(reader_t), intent(in) :: reader

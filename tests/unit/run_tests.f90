@@ -49,6 +49,7 @@ program run_tests
   use test_output_scales, only: run_output_scales_tests
   use test_output_results, only: run_output_results_tests
   use test_output_compare, only: run_output_compare_tests
+  use test_mode_clusters, only: run_mode_clusters_tests
   use test_output_digest, only: run_output_digest_tests
   use test_output_vtkhdf, only: run_output_vtkhdf_tests
   use test_output_history, only: run_output_history_tests
@@ -118,6 +119,7 @@ program run_tests
   call run_output_scales_tests()
   call run_output_results_tests()
   call run_output_compare_tests()
+  call run_mode_clusters_tests()
   call run_output_digest_tests()
   call run_output_vtkhdf_tests()
   call run_output_history_tests()
