@@ -220,46 +220,71 @@ contains
     end subroutine digest_both
   end subroutine test_digest
 
-  !> Of a round cantilever all that bends is double, real or damped, in vibrations and under a load.
+  !> Of a round cantilever all that bends is double, real or damped, in vibrations, under a load and
+  !> a torque of either sense; two masses in space have five free motions.
   subroutine test_cut_said()
-    character(len=*), parameter :: deck = &
+    character(len=*), parameter :: rod = &
       "MATERIAL m E 1 G 1e4 RHO 1"//newline// &
       "SECTION s CONSTANTS A 100 IY 1 IZ 1 IT 1"//newline// &
       "NODE 1 0 0 0"//newline//"NODE 2 100 0 0"//newline// &
       "BEAMW 1 1 2 0 1 0 SECTION s MATERIAL m DIVIDE 4"//newline//"FIX 1"//newline// &
-      "SET n 1"//newline//"DAMP 0.001 0"//newline
+      "SET n 1"//newline
+    character(len=*), parameter :: column = &
+      "DAMP 0.001 0"//newline//"EIGEN MODES {n}"//newline// &
+      "EIGEN MODES {n} DAMPED"//newline//"XF 2 -1 0 0"//newline//"BUCKLING MODES {n}"//newline
+    character(len=*), parameter :: torque = &
+      "XF 2 0 0 0 1 0 0"//newline//"BUCKLING MODES {n}"//newline
+    character(len=*), parameter :: pair = &
+      "NODE 1 0 0 0"//newline//"NODE 2 2 0 0"//newline//"TRUSS 1 1 2"//newline// &
+      "DYNE 1 1"//newline//"ESTIFF 1 100"//newline//"EDAMP 1 1"//newline//"XM 1 2"//newline// &
+      "XM 2 3"//newline//"SET n 1"//newline//"EIGEN MODES {n}"//newline// &
+      "EIGEN MODES {n} DAMPED"//newline
     integer :: k
 
-    call make_file(scratch("round.deck"), deck//"EIGEN MODES {n}"//newline// &
-                   "EIGEN MODES {n} DAMPED"//newline//"XF 2 -1 0 0"//newline// &
-                   "BUCKLING MODES {n}"//newline)
+    call make_file(scratch("column.deck"), rod//column)
+    call make_file(scratch("torque.deck"), rod//torque)
+    call make_file(scratch("pair.deck"), pair)
     do k = 1, 4
-      call expect_cut(k, "/analysis/01_eigen", [.false., modulo(k, 2) == 1])
-      call expect_cut(k, "/analysis/02_eigen", [.false., modulo(k, 2) == 1])
-      call expect_cut(k, "/analysis/03_buckling", [.false., modulo(k, 2) == 1])
+      call run_deck("column", k)
+      call expect_cut("01_eigen", [.false., modulo(k, 2) == 1])
+      call expect_cut("02_eigen", [.false., modulo(k, 2) == 1])
+      call expect_cut("03_buckling", [.false., modulo(k, 2) == 1])
+      call run_deck("torque", k)
+      call expect_cut("01_buckling", [modulo(k, 2) == 1, modulo(k, 2) == 1])
+    end do
+    do k = 3, 6
+      call run_deck("pair", k)
+      call expect_cut("01_eigen", [.false., k < 5])
+      call expect_cut("02_eigen", [.false., k < 5])
     end do
   end subroutine test_cut_said
 
-  subroutine expect_cut(modes, group, cut)
+  subroutine run_deck(name, modes)
+    character(len=*), intent(in) :: name
     integer, intent(in) :: modes
-    character(len=*), intent(in) :: group
-    logical, intent(in) :: cut(2)
     type(outcome_t) :: outcome
-    type(reader_t) :: reader
-    type(error_t), allocatable :: error
-    integer :: first, last
     character(len=1) :: digit
 
     write (digit, "(i1)") modes
-    call run_spar("run "//scratch("round.deck")//" --quiet --no-vtk -D n="//digit//" -o "// &
-                  scratch("round.h5"), outcome)
-    call expect(outcome%status == 0, "runs: "//outcome%errors)
-    call reader%open(scratch("round.h5"), error)
-    call reader%get_number(group, "cut_first", first)
-    call reader%get_number(group, "cut_last", last)
+    call run_spar("run "//scratch(name//".deck")//" --quiet --no-vtk -D n="//digit//" -o "// &
+                  scratch("cut.h5"), outcome)
+    call expect(outcome%status == 0, name//" with "//digit//" modes: "//outcome%errors)
+  end subroutine run_deck
+
+  !> Whether the clusters of the first and of the last mode are cut.
+  subroutine expect_cut(analysis, cut)
+    character(len=*), intent(in) :: analysis
+    logical, intent(in) :: cut(2)
+    type(reader_t) :: reader
+    type(error_t), allocatable :: error
+    integer :: first, last
+
+    call reader%open(scratch("cut.h5"), error)
+    call reader%get_number("/analysis/"//analysis, "cut_first", first)
+    call reader%get_number("/analysis/"//analysis, "cut_last", last)
     call reader%close()
-    call expect(first == merge(1, 0, cut(1)), group//": first of "//digit)
-    call expect(last == merge(1, 0, cut(2)), group//": last of "//digit)
+    call expect(first == merge(1, 0, cut(1)), analysis//": the first")
+    call expect(last == merge(1, 0, cut(2)), analysis//": the last")
   end subroutine expect_cut
 
 end module test_mode_clusters

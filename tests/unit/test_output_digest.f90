@@ -99,7 +99,8 @@ contains
 
   !> Kernels of BLAS and of the mathematical library without fused products, as on an old
   !> processor (where there is a choice of them): forces beside moments, rigid strains, reactions
-  !> beside moments; modes of double eigenvalues, complex ones and such that are cut. compare agrees.
+  !> beside moments; modes of double eigenvalues, complex ones and such that are cut. compare
+  !> agrees.
   subroutine test_processor()
     character(len=32), parameter :: deck(8) = [character(len=32) :: &
       "decks/four_bar", "tests/cases/static/rollup", "tests/cases/path/lateral", &
