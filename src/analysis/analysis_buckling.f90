@@ -13,9 +13,10 @@ module analysis_buckling
   use linalg_spectrum, only: find_spectrum, count_between
   use linalg_equality, only: are_equal
   use system_data, only: system_t
-  use system_assembly, only: iterate_t, assemble, pattern_direction
+  use system_assembly, only: iterate_t, assemble
   use system_blocks, only: half_t, new_half, fold
   use system_geometric, only: stress_increments, assemble_geometric, is_conservative
+  use system_newton, only: pattern_direction
   use mode_results, only: modes_t, new_modes, add_mode, unit_factor, symmetric_part
   use recorder, only: recorder_t
   implicit none

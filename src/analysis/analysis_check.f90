@@ -14,6 +14,7 @@ module analysis_check
   use system_dependence, only: dependence_t
   use system_mobility, only: free_motion_t, find_free_motions
   use system_names, only: coordinate_name, strain_name, node_name
+  use system_unknowns, only: by_unknown
   use start_assembly, only: assemble_start
   use mode_results, only: modes_t, new_modes, add_mode, unit_factor
   use singular_refusal, only: check_departure
@@ -268,14 +269,11 @@ contains
     type(free_motion_t), intent(in) :: found(:)
     type(modes_t), intent(out) :: modes
     real(wp) :: solution(system%equations())
-    integer :: i, k
+    integer :: i
 
     call new_modes(system, size(found), modes)
     do i = 1, size(found)
-      solution = 0
-      do k = 1, system%coordinates
-        if (system%unknown(k) > 0) solution(system%unknown(k)) = found(i)%shape(k)
-      end do
+      solution = by_unknown(system, found(i)%shape)
       solution = unit_factor(system, solution)*solution
       call add_mode(model, system, iterate, solution, modes)
     end do

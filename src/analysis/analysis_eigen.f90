@@ -23,8 +23,9 @@ module analysis_eigen
   use system_inertia, only: masses_t, new_masses, assemble_mass, mass_product, mass_centre, &
                             rigid_motion
   use system_names, only: coordinate_name
+  use system_unknowns, only: by_coordinate
   use complex_modes, only: find_complex_modes, say_complex
-  use mode_results, only: modes_t, new_modes, add_mode, by_coordinate, unit_factor
+  use mode_results, only: modes_t, new_modes, add_mode, unit_factor
   use recorder, only: recorder_t
   implicit none
   private

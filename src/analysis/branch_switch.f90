@@ -3,7 +3,9 @@ module branch_switch
   use kinds, only: wp
   use nodal_state, only: node_coordinates
   use system_data, only: system_t
-  use system_assembly, only: iterate_t, assemble, advance
+  use system_assembly, only: iterate_t, assemble
+  use system_newton, only: advance
+  use system_unknowns, only: mixed_entries
   use path_control, only: control_t, arc_product
   use recorder, only: critical_t
   implicit none
@@ -23,17 +25,11 @@ contains
     type(iterate_t), intent(inout) :: iterate
     type(control_t), intent(inout) :: control
     real(wp) :: solution(system%equations()), motion(system%coordinates)
-    integer :: k
 
     motion = 0
     motion(:node_coordinates*system%nodes) = reshape(point%mode, [node_coordinates*system%nodes])
     motion = arc/sqrt(arc_product(system, motion, motion))*motion
-    do k = 1, system%coordinates
-      if (system%unknown(k) > 0) solution(system%unknown(k)) = motion(k)
-    end do
-    do k = 1, size(system%multiplier)
-      if (system%multiplier(k) > 0) solution(system%multiplier(k)) = iterate%stress(k)
-    end do
+    solution = mixed_entries(system, motion, iterate%stress)
     call assemble(system, level, iterate)
     call advance(system, solution, 1.0_wp, iterate, control%total)
     control%arc = arc

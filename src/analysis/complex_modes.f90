@@ -11,7 +11,8 @@ module complex_modes
   use system_assembly, only: iterate_t
   use system_inertia, only: mass_centre, rigid_motion, mass_product
   use system_linear, only: matrices_t
-  use mode_results, only: modes_t, new_modes, add_complex_mode, by_coordinate, largest_component
+  use system_unknowns, only: by_coordinate
+  use mode_results, only: modes_t, new_modes, add_complex_mode, largest_component
   use recorder, only: recorder_t
   implicit none
   private

@@ -9,12 +9,14 @@ module driven_motion
   use errors, only: error_t, fail, exit_solve
   use model_data, only: model_t
   use system_data, only: system_t
-  use system_assembly, only: iterate_t, new_iterate, assemble, right_hand_side, advance
+  use system_assembly, only: iterate_t, new_iterate, assemble
   use system_constraints, only: free_motions
   use system_dynamics, only: inertia_forces
   use system_inertia, only: masses_t
   use system_motion, only: target_rates
+  use system_newton, only: right_hand_side, advance
   use system_rates, only: convective_rates, strain_forces
+  use system_unknowns, only: by_coordinate, mixed_entries
   use generalized_alpha, only: new_scheme
   use dynamic_equilibrium, only: dynamics_t, new_dynamics, release_dynamics
   use newton_method, only: newton_outcome_t, newton_converged, newton_slow, newton_diverged, &
@@ -231,20 +233,11 @@ contains
     real(wp), intent(out) :: x(:)                !< by coordinate
     type(error_t), allocatable, intent(out) :: error
     real(wp) :: solution(motion%system%equations())
-    integer :: k
 
     x = 0
-    do k = 1, size(force)
-      if (motion%system%unknown(k) > 0) solution(motion%system%unknown(k)) = force(k)
-    end do
-    do k = 1, size(strain)
-      if (motion%system%multiplier(k) > 0) solution(motion%system%multiplier(k)) = strain(k)
-    end do
+    solution = mixed_entries(motion%system, force, strain)
     call motion%solver%solve(solution, error)
-    if (allocated(error)) return
-    do k = 1, size(x)
-      if (motion%system%unknown(k) > 0) x(k) = solution(motion%system%unknown(k))
-    end do
+    if (.not. allocated(error)) x = by_coordinate(motion%system, solution)
   end subroutine solve_rates
 
   !> How far the coordinates move for changes of all held strains, of irregular signs: near a

@@ -15,12 +15,14 @@ module dynamic_equilibrium
   use linalg_solver, only: solver_t
   use system_data, only: system_t
   use system_build, only: find_system_pattern
-  use system_assembly, only: iterate_t, new_iterate, assemble, right_hand_side, advance
+  use system_assembly, only: iterate_t, new_iterate, assemble
   use system_constraints, only: coordinate_scale
   use system_dynamics, only: shares_t, add_inertia, inertia_forces
   use system_inertia, only: masses_t
   use system_motion, only: target_rates
+  use system_newton, only: right_hand_side, advance
   use system_rates, only: strain_rates
+  use system_unknowns, only: by_coordinate, by_unknown, held_entries
   use generalized_alpha, only: scheme_t, flow_t, predict, correct, inverse_tangent
   use newton_method, only: newton_outcome_t, newton_converged, newton_slow, newton_diverged, &
                            newton_distorted
@@ -28,8 +30,8 @@ module dynamic_equilibrium
   private
 
   public :: dynamics_t, new_dynamics, take_step, release_dynamics
-  public :: assemble_motion, set_shares, correct_velocity, held_entries, by_coordinate
-  public :: by_unknown, inertia_of, largest_gap, constraint_tolerance
+  public :: assemble_motion, set_shares, correct_velocity, inertia_of, largest_gap
+  public :: constraint_tolerance
 
   !> Fixed strains are on their targets to this part of the model's length.
   real(wp), parameter :: constraint_tolerance = 1.0e-12_wp
@@ -202,32 +204,6 @@ contains
     self%flow%velocity = self%flow%velocity + by_coordinate(self%system, solution)
   end subroutine correct_velocity
 
-  !> The coordinates' part of a solution, zero where they are held.
-  pure function by_coordinate(system, solution) result(x)
-    type(system_t), intent(in) :: system
-    real(wp), intent(in) :: solution(:)
-    real(wp) :: x(system%coordinates)
-    integer :: k
-
-    do k = 1, size(x)
-      x(k) = 0
-      if (system%unknown(k) > 0) x(k) = solution(system%unknown(k))
-    end do
-  end function by_coordinate
-
-  !> A right-hand side of what held strains lack, zero elsewhere.
-  pure function held_entries(system, lack) result(b)
-    type(system_t), intent(in) :: system
-    real(wp), intent(in) :: lack(:)        !< by strain
-    real(wp) :: b(system%equations())
-    integer :: k
-
-    b = 0
-    do k = 1, size(lack)
-      if (system%multiplier(k) > 0) b(system%multiplier(k)) = lack(k)
-    end do
-  end function held_entries
-
   !> Rates and increments of coordinates that are held are zero.
   pure subroutine clear_held(system, flow, increment)
     type(system_t), intent(in) :: system
@@ -345,19 +321,6 @@ contains
                         force)
     b = by_unknown(self%system, force)
   end function inertia_of
-
-  !> A right-hand side of what acts on coordinates, zero elsewhere.
-  pure function by_unknown(system, x) result(b)
-    type(system_t), intent(in) :: system
-    real(wp), intent(in) :: x(:)           !< by coordinate
-    real(wp) :: b(system%equations())
-    integer :: k
-
-    b = 0
-    do k = 1, size(x)
-      if (system%unknown(k) > 0) b(system%unknown(k)) = x(k)
-    end do
-  end function by_unknown
 
   !> Spins as changes of the step's rotation vectors, in place.
   pure subroutine turn_spins(self, motion)

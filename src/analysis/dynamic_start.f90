@@ -7,14 +7,15 @@ module dynamic_start
   use nodal_state, only: state_t, node_coordinates
   use rotation, only: cross
   use system_data, only: system_t
-  use system_assembly, only: iterate_t, right_hand_side, advance
+  use system_assembly, only: iterate_t
   use system_motion, only: target_rates
+  use system_newton, only: right_hand_side, advance
   use system_rates, only: strain_rates, convective_rates, held_forces
+  use system_unknowns, only: by_coordinate, by_unknown, held_entries
   use system_inertia, only: find_massive
   use generalized_alpha, only: flow_t
-  use dynamic_equilibrium, only: dynamics_t, assemble_motion, set_shares, held_entries, &
-                                 by_coordinate, by_unknown, inertia_of, largest_gap, &
-                                 constraint_tolerance
+  use dynamic_equilibrium, only: dynamics_t, assemble_motion, set_shares, inertia_of, &
+                                 largest_gap, constraint_tolerance
   use start_assembly, only: assemble_model
   use start_velocity, only: find_velocities
   use singular_refusal, only: leave_singular

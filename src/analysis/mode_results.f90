@@ -15,10 +15,11 @@ module mode_results
   use system_results, only: result_modes, joint_strains, shear_centre_shift
   use system_geometric, only: stress_increments
   use system_linear, only: matrices_t
+  use system_unknowns, only: by_coordinate
   implicit none
   private
 
-  public :: modes_t, shapes_t, new_modes, add_mode, add_complex_mode, by_coordinate, unit_factor
+  public :: modes_t, shapes_t, new_modes, add_mode, add_complex_mode, unit_factor
   public :: largest_component, mode_kind, mode_lines
 
   integer, parameter, public :: energy_kinds = 5
@@ -166,19 +167,6 @@ contains
     call add_members(model, system, iterate, motion, stress, modes)
     call add_joints(system, iterate, motion, stress, modes)
   end subroutine add_shape
-
-  !> A solution's entries of the coordinates, zero where held.
-  pure function by_coordinate(system, solution) result(motion)
-    type(system_t), intent(in) :: system
-    real(wp), intent(in) :: solution(:)
-    real(wp) :: motion(system%coordinates)
-    integer :: k
-
-    do k = 1, system%coordinates
-      motion(k) = 0
-      if (system%unknown(k) > 0) motion(k) = solution(system%unknown(k))
-    end do
-  end function by_coordinate
 
   !> Strains and stresses about the centroid, as of a state, and the shares of the energy, half
   !> strain times stress, about the shear centre: what St. Venant's torsion has not of the modes 2,

@@ -8,8 +8,10 @@ module newton_method
   use linalg_solver, only: solver_t
   use model_data, only: control_load
   use system_data, only: system_t
-  use system_assembly, only: iterate_t, assemble, right_hand_side, pattern_direction, advance
+  use system_assembly, only: iterate_t, assemble
   use system_constraints, only: coordinate_scale
+  use system_newton, only: right_hand_side, pattern_direction, advance
+  use system_unknowns, only: by_coordinate
   use path_control, only: control_t, load_increment
   use recorder, only: recorder_t, iteration_t
   implicit none
@@ -116,19 +118,6 @@ contains
                           by_coordinate(system, direction))
     solution = solution + rise*direction
   end subroutine solve_on_path
-
-  !> A solution's entries of the coordinates, zero where held.
-  pure function by_coordinate(system, solution) result(motion)
-    type(system_t), intent(in) :: system
-    real(wp), intent(in) :: solution(:)
-    real(wp) :: motion(system%coordinates)
-    integer :: k
-
-    do k = 1, system%coordinates
-      motion(k) = 0
-      if (system%unknown(k) > 0) motion(k) = solution(system%unknown(k))
-    end do
-  end function by_coordinate
 
   !> Advance and assemble; a step that turns an element too far is halved up to four times.
   subroutine step_safely(system, control, solution, rise, level, iterate, increment, outcome)

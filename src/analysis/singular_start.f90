@@ -17,6 +17,7 @@ module singular_start
   use system_unstressed, only: unstressed_t, new_unstressed
   use system_motion, only: target_rates
   use system_rates, only: strain_rates
+  use system_unknowns, only: by_coordinate, held_entries
   use start_velocity, only: given_lacks
   implicit none
   private
@@ -228,17 +229,10 @@ contains
     real(wp), intent(out) :: x(:)
     type(error_t), allocatable, intent(out) :: error
     real(wp) :: solution(self%at%system%equations())
-    integer :: k
 
-    solution = 0
-    do k = 1, size(rate)
-      if (self%at%system%multiplier(k) > 0) solution(self%at%system%multiplier(k)) = rate(k)
-    end do
+    solution = held_entries(self%at%system, rate)
     call self%at%solver%solve(solution, error)
-    x = 0
-    do k = 1, size(x)
-      if (self%at%system%unknown(k) > 0) x(k) = solution(self%at%system%unknown(k))
-    end do
+    x = by_coordinate(self%at%system, solution)
   end subroutine solve_rates
 
   !> What the singular constraints' second rates lack for velocities w + N p, N what moves freely.

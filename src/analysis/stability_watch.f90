@@ -7,8 +7,10 @@ module stability_watch
   use nodal_state, only: coordinate_number, node_coordinates
   use linalg_solver, only: solver_t
   use system_data, only: system_t
-  use system_assembly, only: iterate_t, assemble, pattern_direction
+  use system_assembly, only: iterate_t, assemble
   use system_constraints, only: coordinate_scale
+  use system_newton, only: pattern_direction
+  use system_unknowns, only: by_coordinate, by_unknown
   use newton_method, only: newton_t, newton_outcome_t, find_equilibrium, newton_converged
   use path_control, only: control_t
   use equilibrium_path, only: safe_t, keep_safe, go_back
@@ -261,23 +263,18 @@ contains
     real(wp), intent(out) :: mode(:)
     real(wp), intent(out) :: x(:)      !< the same by unknown, not scaled, with the multipliers
     type(error_t), allocatable, intent(out) :: error
-    real(wp) :: length
+    real(wp) :: length, scale(size(mode))
     integer :: k, sweep
 
+    scale = [(coordinate_scale(system, k), k=1, size(mode))]
     do k = 1, system%coordinates
       mode(k) = 1 + 0.5_wp*sin(real(k, wp))
     end do
     do sweep = 1, 4
-      x = 0
-      do k = 1, system%coordinates
-        if (system%unknown(k) > 0) x(system%unknown(k)) = mode(k)/coordinate_scale(system, k)
-      end do
+      x = by_unknown(system, mode/scale)
       call solver%solve(x, error)
       if (allocated(error)) return
-      do k = 1, system%coordinates
-        mode(k) = 0
-        if (system%unknown(k) > 0) mode(k) = x(system%unknown(k))/coordinate_scale(system, k)
-      end do
+      mode = by_coordinate(system, x)/scale
       length = sign(norm2(mode), mode(maxloc(abs(mode), 1)))
       mode = mode/length
       x = x/length

@@ -16,9 +16,10 @@ module start_assembly
   use linalg_solver, only: solver_t
   use system_data, only: system_t
   use system_build, only: build_system, find_system_pattern
-  use system_assembly, only: iterate_t, new_iterate, assemble, right_hand_side, advance
+  use system_assembly, only: iterate_t, new_iterate, assemble
   use system_constraints, only: coordinate_scale
   use system_names, only: strain_name
+  use system_newton, only: right_hand_side, advance
   use equilibrium_path, only: check_angles
   use strain_gaps, only: is_open, row_size, closed_gap
   implicit none

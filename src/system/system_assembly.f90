@@ -8,14 +8,13 @@ module system_assembly
   use element_base, only: element_t, max_strains, max_coordinates
   use system_data, only: system_t
   use system_pattern, only: add_block
-  use system_loads, only: add_loads, load_direction
-  use system_motion, only: set_targets, target_direction
+  use system_loads, only: add_loads
+  use system_motion, only: set_targets
   use system_rotation, only: add_rotation, spin_at
   implicit none
   private
 
-  public :: iterate_t, new_iterate, assemble, assemble_elements, assemble_loads
-  public :: right_hand_side, pattern_direction, advance
+  public :: iterate_t, new_iterate, assemble, assemble_elements, assemble_loads, multiply
 
   !> Where the iteration stands; what `assemble` leaves is about `state` as it was then.
   type :: iterate_t
@@ -203,6 +202,7 @@ contains
     end associate
   end subroutine add_tangent
 
+  !> Matrix times vector of an element, most of whose entries are zero.
   pure subroutine multiply(n, matrix, vector, product)
     integer, intent(in) :: n
     real(wp), intent(in) :: matrix(n, n), vector(n)
@@ -364,100 +364,5 @@ contains
     end do
     call add_block(system%pattern, block, bordered(:width, :width), values)
   end subroutine add_element
-
-  !> Right-hand side of the mixed Newton step: loads minus forces of the strains; what the held
-  !> strains lack. Its solution is the increment and the new multipliers.
-  pure function right_hand_side(system, iterate) result(b)
-    type(system_t), intent(in) :: system
-    type(iterate_t), intent(in) :: iterate
-    real(wp) :: b(system%equations())
-    integer :: k
-
-    do k = 1, system%coordinates
-      if (system%unknown(k) > 0) b(system%unknown(k)) = iterate%external(k) - iterate%internal(k)
-    end do
-    if (allocated(iterate%inertial)) then
-      do k = 1, system%coordinates
-        if (system%unknown(k) == 0) cycle
-        b(system%unknown(k)) = b(system%unknown(k)) - iterate%inertial(k)
-      end do
-    end if
-    do k = 1, size(system%multiplier)
-      if (system%multiplier(k) > 0) b(system%multiplier(k)) = iterate%target(k) - iterate%strain(k)
-    end do
-  end function right_hand_side
-
-  !> Derivative of the right-hand side to the level of a pattern: loads and motions.
-  pure function pattern_direction(system, state, level, pattern) result(b)
-    type(system_t), intent(in) :: system
-    type(state_t), intent(in) :: state
-    real(wp), intent(in) :: level(:)
-    integer, intent(in) :: pattern
-    real(wp) :: b(system%equations()), force(system%coordinates), rise(size(system%multiplier))
-    integer :: k
-
-    call load_direction(system, state, level, pattern, force)
-    call target_direction(system, level, pattern, rise)
-    do k = 1, system%coordinates
-      if (system%unknown(k) > 0) b(system%unknown(k)) = force(k)
-    end do
-    do k = 1, size(system%multiplier)
-      if (system%multiplier(k) > 0) b(system%multiplier(k)) = rise(k)
-    end do
-  end function pattern_direction
-
-  !> Take a step: move the state by `share` of the solution, extrapolate strains and stresses.
-  pure subroutine advance(system, solution, share, iterate, increment)
-    type(system_t), intent(in) :: system
-    real(wp), intent(in) :: solution(:), share
-    type(iterate_t), intent(inout) :: iterate
-    real(wp), intent(out) :: increment(:)  !< by coordinate
-    integer :: e, k
-
-    do k = 1, system%coordinates
-      increment(k) = 0
-      if (system%unknown(k) > 0) increment(k) = share*solution(system%unknown(k))
-    end do
-    do e = 1, size(system%element)
-      associate (jacobian => iterate%jacobian(system%jacobian(e) + 1:system%jacobian(e + 1)))
-        call extrapolate(system, e, system%element(e)%e, jacobian, solution, share, increment, &
-                         iterate)
-      end associate
-    end do
-    call iterate%state%move(increment)
-    do e = 1, size(system%element)
-      if (system%element(e)%e%counts_turns) call system%element(e)%e%count_turns(iterate%state)
-    end do
-  end subroutine advance
-
-  !> sigma <- S (strain + D du), with strain and D before the step; multipliers from the solution.
-  pure subroutine extrapolate(system, e, element, jacobian, solution, share, increment, iterate)
-    type(system_t), intent(in) :: system
-    integer, intent(in) :: e
-    class(element_t), intent(in) :: element
-    real(wp), intent(in) :: jacobian(element%strains, element%coordinates), solution(:), share
-    real(wp), intent(in) :: increment(:)
-    type(iterate_t), intent(inout) :: iterate
-    real(wp) :: law(max_strains**2), strain(max_strains), stress(max_strains)
-    integer :: first, last, i, n
-
-    n = element%strains
-    first = system%first(e) + 1
-    last = system%first(e + 1)
-    call element%law(law)
-    strain(:n) = iterate%strain(first:last)
-    do i = 1, element%coordinates
-      strain(:n) = strain(:n) + jacobian(:, i)*increment(element%coordinate(i))
-    end do
-    iterate%strain(first:last) = strain(:n)
-    call multiply(n, law, strain, stress)
-    stress(:n) = stress(:n) + system%initial_stress(first:last)
-    do i = 1, element%strains
-      associate (old => iterate%stress(first + i - 1), at => system%multiplier(first + i - 1))
-        if (at > 0) stress(i) = old + share*(solution(at) - old)
-      end associate
-    end do
-    iterate%stress(first:last) = stress(:n)
-  end subroutine extrapolate
 
 end module system_assembly

@@ -10,6 +10,7 @@ module system_constraints
   use system_data, only: system_t
   use system_build, only: number_multipliers
   use system_assembly, only: iterate_t
+  use system_unknowns, only: by_coordinate
   implicit none
   private
 
@@ -210,11 +211,7 @@ contains
     call solver%solve(x, error)
     if (allocated(error)) return
     x(null) = 1
-    allocate (motion(system%coordinates))
-    motion = 0
-    do k = 1, system%coordinates
-      if (system%unknown(k) > 0) motion(k) = x(system%unknown(k))
-    end do
+    motion = by_coordinate(system, x)
   end subroutine null_vector
 
   !> Whether a motion (scaled) leaves all strains that have a stiffness or are fixed at zero: a

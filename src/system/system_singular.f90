@@ -17,6 +17,7 @@ module system_singular
   use system_data, only: system_t
   use system_build, only: number_multipliers
   use system_constraints, only: constraint_entries, coordinate_scale, resisted
+  use system_unknowns, only: by_coordinate
   use system_unstressed, only: unstressed_t, new_unstressed
   implicit none
   private
@@ -253,15 +254,8 @@ contains
     type(system_t), intent(in) :: system
     real(wp), intent(in) :: x(:)           !< by unknown, in units of steps
     type(state_t), intent(inout) :: state
-    real(wp) :: increment(system%coordinates), unit(system%coordinates)
-    integer :: k
 
-    unit = step_units(system)
-    increment = 0
-    do k = 1, system%coordinates
-      if (system%unknown(k) > 0) increment(k) = x(system%unknown(k))*unit(k)
-    end do
-    call state%move(increment)
+    call state%move(by_coordinate(system, x)*step_units(system))
   end subroutine move_scaled
 
   !> How far fixed strains are from what they are at another state, in units in which their
