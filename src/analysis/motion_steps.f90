@@ -8,7 +8,8 @@ module motion_steps
   use system_breaks, only: next_break
   use equilibrium_path, only: reason, check_angles
   use newton_method, only: newton_outcome_t, newton_converged
-  use dynamic_equilibrium, only: dynamics_t, take_step
+  use dynamic_equilibrium, only: dynamics_t
+  use dynamic_step, only: take_step
   use dynamic_start, only: restart_motion, settle_motion, part_of_step
   use motion_instant, only: instant_t, remember, go_back
   use energy_account, only: account_t, reopen_account, enter_step, motion_energy
