@@ -52,6 +52,7 @@ module driven_motion
     type(dynamics_t) :: motion
     logical :: inertia = .false.               !< INVERSE
     logical :: poor = .false.                  !< the last position found
+    real(wp) :: here = 0.0_wp                  !< sensitivity of the last position found
     real(wp) :: sensitivity = huge(1.0_wp)     !< the least found
     integer :: nulls = 0                       !< null pivots at the start, of no motion
     real(wp), allocatable :: strain_scale(:)   !< by strain: what counts as one
@@ -110,9 +111,10 @@ contains
     real(wp), intent(in) :: level(:)
     type(newton_outcome_t), intent(out) :: outcome
     type(error_t), allocatable, intent(out) :: error
-    real(wp) :: change
+    real(wp) :: change, before
     integer :: pass
 
+    before = huge(before)
     do pass = 1, most_passes
       call find_position(self, level, outcome, error)
       if (allocated(error) .or. outcome%status /= newton_converged) return
@@ -120,13 +122,26 @@ contains
       if (allocated(error)) return
       if (.not. self%inertia) return
       call renew_inertia(self%motion, change)
-      if (change <= inertia_tolerance) return
+      if (has_settled(self%here, change, before)) return
       if (.not. ieee_is_finite(change)) exit
+      before = change
     end do
     outcome%status = newton_diverged
     if (.not. self%poor) call fail(error, exit_solve, "the deflection by the inertia forces "// &
       "does not settle: the motion is too fast for INVERSE, TRANSIENT follows it")
   end subroutine find_motion
+
+  !> Whether inertia forces that change so much, and `before` that, have settled: they agree to the
+  !> tolerance, or shrink no more and differ by their round-off. Positions are right to theirs; C,
+  !> off by as much, is inverted for velocities, off by s times that, and with these for
+  !> accelerations, off by s**2 times that.
+  pure logical function has_settled(sensitivity, change, before)
+    real(wp), intent(in) :: sensitivity    !< s
+    real(wp), intent(in) :: change, before
+
+    has_settled = change <= inertia_tolerance .or. &
+                  change > stalled*before .and. change <= tolerance*sensitivity**2
+  end function has_settled
 
   !> Newton, in stages where the targets are far.
   subroutine find_position(self, level, outcome, error)
@@ -246,7 +261,7 @@ contains
     type(driven_t), intent(inout) :: self
     type(error_t), allocatable, intent(out) :: error
     real(wp), parameter :: golden = 0.6180339887498949_wp
-    real(wp) :: no_force(size(self%motion%scale)), x(size(self%motion%scale)), far_moved
+    real(wp) :: no_force(size(self%motion%scale)), x(size(self%motion%scale))
     real(wp) :: strain(size(self%strain_scale))
     integer :: k
 
@@ -255,10 +270,10 @@ contains
                k=1, size(strain))]
     call solve_rates(self%motion, no_force, strain, x, error)
     if (allocated(error)) return
-    far_moved = maxval(abs(x)/self%motion%scale)
+    self%here = maxval(abs(x)/self%motion%scale)
     self%poor = size(self%motion%solver%null_pivots()) > self%nulls .or. &
-                .not. far_moved/poor_sensitivity <= self%sensitivity
-    if (.not. self%poor) self%sensitivity = min(self%sensitivity, far_moved)
+                .not. self%here/poor_sensitivity <= self%sensitivity
+    if (.not. self%poor) self%sensitivity = min(self%sensitivity, self%here)
   end subroutine probe
 
   !> Inertia forces of the rates found, and the velocities that dampers see; how much both changed.
