@@ -101,8 +101,8 @@ contains
     call assemble_here(motion, level)
   end subroutine restart_motion
 
-  !> Put held strains on targets that have jumped, by the motion of least mass times square that does
-  !> it; with the shares of a very short step. Left assembled.
+  !> Put held strains on targets that have jumped, by the motion of least mass times square that
+  !> does it; with the shares of a very short step. Left assembled.
   subroutine close_places(level, motion, error)
     real(wp), intent(in) :: level(:)
     type(dynamics_t), intent(inout) :: motion
