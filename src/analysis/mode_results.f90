@@ -22,9 +22,9 @@ module mode_results
   public :: modes_t, shapes_t, new_modes, add_mode, add_complex_mode, unit_factor
   public :: largest_component, mode_kind, mode_lines
 
-  integer, parameter, public :: energy_kinds = 5
+  integer, parameter, public :: energy_kinds = 6
   character(len=9), parameter, public :: energy_names(energy_kinds) = &
-    ["axial    ", "torsion  ", "bending y", "bending z", "warping  "]
+    ["axial    ", "torsion  ", "bending y", "bending z", "warping  ", "joints   "]
 
   character(len=*), parameter, public :: symmetric_part = &
     "dead moments on free rotations are not conservative: the modes are those of semitangential"// &
@@ -58,7 +58,7 @@ module mode_results
     real(wp), allocatable :: stress(:, :, :)        !< (8, members, modes)
     real(wp), allocatable :: joint_strain(:, :, :)  !< (6, joints, modes) 0 behind the last strain
     real(wp), allocatable :: joint_stress(:, :, :)  !< (6, joints, modes)
-    real(wp), allocatable :: energy(:, :)           !< (5, modes) shares of the strain energy
+    real(wp), allocatable :: energy(:, :)           !< (6, modes) shares of the strain energy
     real(wp), allocatable :: participation(:, :)    !< EIGEN: (6, modes)
     real(wp), allocatable :: effective_mass(:, :)   !< EIGEN: (6, modes) [M], [M L^2]
     real(wp) :: rigid_mass(6) = 0.0_wp              !< EIGEN: all mass, inertia about the centre
@@ -244,12 +244,13 @@ contains
     end associate
   end function torsion_stiffness
 
-  !> Strains and stresses of the joints.
+  !> Strains, stresses and energies of the joints.
   pure subroutine add_joints(system, iterate, motion, stress, modes)
     type(system_t), intent(in) :: system
     type(iterate_t), intent(in) :: iterate
     real(wp), intent(in) :: motion(:), stress(:)
     type(modes_t), intent(inout) :: modes
+    real(wp) :: product(joint_strains)
     integer :: j, e
 
     modes%joint_strain(:, :, modes%modes) = 0
@@ -261,7 +262,10 @@ contains
                  n => system%element(e)%e%strains)
         modes%joint_strain(:n, j, modes%modes) = mode_strain(element, jacobian, motion, n)
         modes%joint_stress(:n, j, modes%modes) = stress(first + 1:first + n)
+        product = modes%joint_strain(:, j, modes%modes)*modes%joint_stress(:, j, modes%modes)
+        where (system%multiplier(first + 1:first + n) > 0) product(:n) = 0
       end associate
+      modes%energy(6, modes%modes) = modes%energy(6, modes%modes) + sum(product)
     end do
   end subroutine add_joints
 

@@ -105,7 +105,8 @@ contains
       if (n > 1) then
         sentence = "the motions prescribed for "//sentence//" contradict each other"
         if (size(others) > 0) sentence = sentence//": "//listed( &
-          strain_names(model, system, others), most_strains, found%partners - n)//" connect them"
+          strain_names(model, system, others), most_strains, found%partners - n)// &
+          trim(merge(" connects them", " connect them ", found%partners - n == 1))
       else
         sentence = "the motion prescribed for "//sentence//" is not possible"
         if (size(others) > 0) then

@@ -139,6 +139,7 @@ contains
     character(len=*), intent(in), optional :: hint
     type(diagnostic_t), allocatable :: more(:)
 
+    if (is_said(report, severity, place, message)) return
     report%said(severity) = report%said(severity) + 1
     if (report%said(severity) > most_kept) return
     if (.not. allocated(report%item)) allocate (report%item(8))
@@ -156,6 +157,25 @@ contains
       if (present(hint)) item%hint = hint
     end associate
   end subroutine add
+
+  !> Whether the same is said of the same place already, among what is kept.
+  pure logical function is_said(report, severity, place, message)
+    type(report_t), intent(in) :: report
+    integer, intent(in) :: severity
+    type(place_t), intent(in) :: place
+    character(len=*), intent(in) :: message
+    integer :: i
+
+    is_said = .false.
+    if (report%said(severity) >= most_kept) return
+    do i = 1, report%items
+      associate (item => report%item(i))
+        if (item%severity /= severity .or. item%place%file /= place%file) cycle
+        if (item%place%line /= place%line .or. item%place%column /= place%column) cycle
+        is_said = is_said .or. item%message == message
+      end associate
+    end do
+  end function is_said
 
   !> Number of errors.
   pure integer function errors(self)

@@ -51,7 +51,8 @@ contains
     if (last_node == 0) return
     if (card%positional > last_node - 1) beam%orientation = card%number(last_node + 1:last_node + 3)
     if (card%positional > last_node - 1 .and. .not. any(abs(beam%orientation) > 0)) then
-      call draft%report%add_error(card%place(last_node + 1), "the orientation cannot be 0 0 0")
+      call draft%report%add_error(card%place(last_node + 1), "the orientation cannot be 0 0 0", &
+        "without it, the section's y axis is along the global axis least along the beam")
       return
     end if
     call read_options(card, draft, beam)

@@ -111,7 +111,7 @@ contains
       if (count(node%exists) > 1) then
         if (.not. draft%elements_incomplete) call draft%report%add_error(item%place, &
           "node "//id_text(node%id, node%part)//" is of several kinds: numbers are for one", &
-          "write X Y Z RX RY RZ W")
+          "write X Y Z RX RY RZ W; other nodes take a card of their own, a range or a GROUP")
         return
       end if
       do kind = translational, warping

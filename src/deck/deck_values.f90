@@ -186,7 +186,7 @@ contains
     call read_whole(word, place, draft, mode, ok)
     if (.not. ok .or. (mode >= 1 .and. mode <= 8)) return
     ok = .false.
-    call draft%report%add_error(place, "a BEAMW has modes 1 to 8, not "//word)
+    call draft%report%add_error(place, "modes are 1 to 8 at most, not "//word)
   end subroutine read_mode
 
   !> An id `5`, or a part of an element or one of its inner nodes, `5.2`.

@@ -48,7 +48,7 @@ contains
     call reader%get_number("/", "complete", complete)
     info%complete = complete == 1
     info%nodes = rows(reader, "/model/nodes/id")
-    info%elements = rows(reader, "/model/elements/id")
+    info%elements = rows(reader, "/model/elements/id") + rows(reader, "/model/joints/id")
     info%sections = rows(reader, "/model/sections/name")
     info%materials = rows(reader, "/model/materials/name")
     info%drawn = rows(reader, "/VTKHDF/Steps/Values")

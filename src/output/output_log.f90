@@ -78,9 +78,9 @@ contains
     end do
     call say(self, program_name//" "//version//", "//deck)
     if (model%title /= "") call say(self, model%title)
-    call say(self, plural(size(model%node), "node")//", "//plural(size(model%member), &
-             "element")//", "//plural(size(model%section), "section")//", "// &
-             plural(size(model%material), "material"))
+    call say(self, plural(size(model%node), "node")//", "//plural( &
+             size(model%member) + size(model%joint), "element")//", "// &
+             plural(size(model%section), "section")//", "//plural(size(model%material), "material"))
   end subroutine open_log
 
   !> The run goes on from a point of another one.
@@ -153,10 +153,10 @@ contains
     end if
     if (any([mode_analyses, analysis_compliance] == analysis%kind)) return
     if (self%level == log_verbose) then
-      call say(self, "    step   "//progress_name(self)//"   iteration   residual   increment")
+      call say(self, "    step   "//progress_name(self)//"   iteration"//measures(self))
     else
       call say(self, "    step   "//progress_name(self)//repeat("   step size", &
-               merge(1, 0, self%in_time))//"   iterations   residual   increment"// &
+               merge(1, 0, self%in_time))//"   iterations"//measures(self)// &
                "   largest displacement")
     end if
   end subroutine begin_analysis
@@ -167,6 +167,13 @@ contains
 
     progress_name = merge("       time", "load factor", self%in_time)
   end function progress_name
+
+  !> What is measured of a step's equilibrium: motions in time are held to their constraints.
+  pure character(len=23) function measures(self)
+    type(run_log_t), intent(in) :: self
+
+    measures = merge(" constraint   increment", "   residual   increment", self%in_time)
+  end function measures
 
   pure function purpose(analysis)
     type(analysis_t), intent(in) :: analysis
@@ -192,6 +199,7 @@ contains
                                                    "step")//" along the path,"
     if (analysis%control == control_load .or. analysis%control == control_arc) then
       purpose = purpose//" to load factor "//to_text(analysis%factor)
+      if (analysis%stops) purpose = purpose//" or displacement "//to_text(analysis%stop%value)
     else
       purpose = purpose//" to displacement "//to_text(analysis%controlled%value)
     end if
@@ -212,13 +220,14 @@ contains
     class(run_log_t), intent(inout) :: self
     type(iteration_t), intent(in) :: iteration
 
-    if (self%level == log_verbose) call say(self, row(iteration%step, iteration%factor, &
-      iteration%iteration, 12, iteration))
+    if (self%level == log_verbose) call say(self, row(self, iteration%step, &
+      iteration%factor, iteration%iteration, 12, iteration))
     call show_progress(self, iteration)
   end subroutine log_iteration
 
   !> The columns that steps and iterations have in common.
-  function row(step, factor, count, width, iteration, step_size) result(line)
+  function row(self, step, factor, count, width, iteration, step_size) result(line)
+    type(run_log_t), intent(in) :: self
     integer, intent(in) :: step, count
     real(wp), intent(in) :: factor
     integer, intent(in) :: width                !< of the column of `count`
@@ -229,7 +238,8 @@ contains
     line = right(to_text(step), 8)//right(to_text(factor), 14)
     if (present(step_size)) line = line//right(to_text(step_size, 4), 12)
     line = line//right(to_text(count), width)// &
-           right(small(iteration%residual), 11)//right(small(iteration%increment), 12)
+           right(small(merge(iteration%constraint, iteration%residual, self%in_time)), 11)// &
+           right(small(iteration%increment), 12)
   end function row
 
   !> A measure of error in two digits.
@@ -292,9 +302,9 @@ contains
     self%printed = .true.
     associate (step => self%last, summary => self%summary(self%analyses))
       if (self%in_time) then
-        line = row(step%step, step%time, step%iterations, 13, step%last, step%size)
+        line = row(self, step%step, step%time, step%iterations, 13, step%last, step%size)
       else
-        line = row(step%step, step%factor, step%iterations, 13, step%last)
+        line = row(self, step%step, step%factor, step%iterations, 13, step%last)
       end if
       call say(self, line//right(to_text(summary%largest, 5), 14)//" at node "// &
                trim(summary%node))

@@ -113,7 +113,7 @@ contains
       reshape(modes%stress(:, :, :modes%modes), [result_modes, rows]), &
       about_t("F", "mode*element; strain 1 to 8", "their stress resultants"))
     call file%write(group//"/energy", modes%energy(:, :modes%modes), &
-      about_t("1", "mode; axial, torsion, bending y, bending z, warping", &
+      about_t("1", "mode; axial, torsion, bending y, bending z, warping, joints", &
               "shares of the strain energy; 0 of a free motion"))
   end subroutine write_elements
 

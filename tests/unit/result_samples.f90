@@ -53,7 +53,7 @@ contains
         m%warping(:, k) = [(0.01_wp*sin(2.0_wp*i + k), i=1, nodes)]
         m%strain(:, :, k) = reshape([(0.2_wp*cos(0.4_wp*i*k), i=1, 8*members)], [8, members])
         m%stress(:, :, k) = 100*m%strain(:, :, k)
-        m%energy(:, k) = [0.1_wp, 0.2_wp, 0.3_wp, 0.4_wp, 0.0_wp]
+        m%energy(:, k) = [0.1_wp, 0.2_wp, 0.3_wp, 0.4_wp, 0.0_wp, 0.0_wp]
       end do
       m%participation = reshape([(sin(1.0_wp*i), i=1, 6*sample_modes)], [6, sample_modes])
       m%effective_mass = m%participation**2

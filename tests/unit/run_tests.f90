@@ -24,6 +24,7 @@ program run_tests
   use test_inertia_tangent, only: run_inertia_tangent_tests
   use test_rotating_inertia, only: run_rotating_inertia_tests
   use test_check, only: run_check_tests
+  use test_run_log, only: run_log_tests
   use test_column_vibration, only: run_column_vibration_tests
   use test_static, only: run_static_tests
   use test_dead_loads, only: run_dead_loads_tests
@@ -101,6 +102,7 @@ program run_tests
   call run_singular_start_tests()
   call run_limits_tests()
   call run_check_tests()
+  call run_log_tests()
   call run_path_tests()
   call run_stability_tests()
   call run_linalg_eigen_tests()

@@ -275,7 +275,7 @@ contains
     call inspect("-D third=0.2 "//cases//"lengths.deck", 3, report, errors)
     call expect_text(errors, "the motions prescribed for element 1 mode 1 (elongation), "// &
                      "element 3 mode 1 (elongation) contradict each other: element 2 mode 1 "// &
-                     "(elongation) connect")
+                     "(elongation) connects them")
     call expect_text(report, """contradiction"": ""the motions")
     call run_spar("run -D third=0.2 "//cases//"lengths.deck -o "//scratch("lengths.h5"), outcome)
     call expect(outcome%status == 3, "status 3 of the run")

@@ -5,7 +5,7 @@ module test_eigen
   use errors, only: error_t, exit_deck
   use model_data, only: model_t
   use memory_recorder, only: memory_t, run_deck
-  use mode_results, only: modes_t, mode_kind
+  use mode_results, only: modes_t, mode_kind, energy_kinds
   implicit none
   private
 
@@ -28,6 +28,7 @@ contains
     call run("eigen: rigid rod on a massless beam, all its modes", rod)
     call run("eigen: a refined mesh by Lanczos", refined)
     call run("eigen: modes of mass one, effective masses", masses)
+    call run("eigen: energy of springs", sprung_tip)
     call run("eigen: centre of mass of a half circle", half_circle)
     call run("eigen: a model without mass", massless)
   end subroutine run_eigen_tests
@@ -45,7 +46,7 @@ contains
 
     call run_deck("../eigen/"//name, memory, model, error, settings)
     call expect(.not. allocated(error), name//": no error")
-    allocate (modes%frequency(0), modes%energy(5, 0))
+    allocate (modes%frequency(0), modes%energy(energy_kinds, 0))
     if (allocated(error) .or. .not. allocated(memory%spectrum)) return
     if (size(memory%spectrum) == 0) return
     modes = memory%spectrum(1)
@@ -359,6 +360,19 @@ contains
     call expect_close(modes%centre, [2/pi**2, 0.0_wp, 1/pi], 1.0e-4_wp, "centre of mass")
     call expect_close(modes%rigid_mass(1:3), [1, 1, 1]*1.0_wp, 1.0e-12_wp, "mass")
   end subroutine half_circle
+
+  !> Beam and spring share a deflection, so their energies are as their stiffnesses.
+  subroutine sprung_tip()
+    type(modes_t) :: modes
+
+    call solve("sprung_tip", modes)
+    call expect(modes%modes == 1, "one mode")
+    if (modes%modes /= 1) return
+    call expect_close(modes%frequency(1), sqrt(8000/2.0_wp)/(2*pi), 1.0e-10_wp, "frequency")
+    call expect_close(modes%energy(3, 1), 0.75_wp, 1.0e-10_wp, "three quarters in the beam")
+    call expect_close(modes%energy(6, 1), 0.25_wp, 1.0e-10_wp, "a quarter in the spring")
+    call expect(mode_kind(modes%energy(:, 1)) == "bending y 75 %, joints 25 %", "in words")
+  end subroutine sprung_tip
 
   subroutine massless()
     type(memory_t) :: memory
