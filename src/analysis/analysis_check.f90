@@ -3,9 +3,11 @@
 module analysis_check
   use kinds, only: wp
   use errors, only: error_t
-  use text, only: string_t, plural
+  use text, only: string_t, plural, to_text
   use model_data, only: model_t, type_beamw, type_beam, mode_fixed, mode_flexible, joint_modes, &
                         joint_names
+  use section_data, only: section_constants_t
+  use model_axes, only: default_orientation
   use nodal_state, only: state_t
   use linalg_solver, only: solver_t
   use system_data, only: system_t
@@ -19,7 +21,7 @@ module analysis_check
   use mode_results, only: modes_t, new_modes, add_mode, unit_factor
   use singular_refusal, only: check_departure
   use model_sentences, only: dependence_sentence, singular_sentence, motion_sentence, &
-                             release_card, motion_name
+                             release_card, motion_name, listed
   use model_soundness, only: redundant_t, sort_redundant, begins_with_motion, refusal, &
                              singular_cure, count_line
   implicit none
@@ -62,6 +64,8 @@ module analysis_check
   end type check_t
 
   integer, parameter :: most_motions = 20        !< more are counted, but not explained
+  character(len=1), parameter :: axis_name(3) = ["X", "Y", "Z"]
+  integer, parameter :: most_named = 10          !< elements in a line
 
 contains
 
@@ -152,12 +156,16 @@ contains
     check%freedoms = system%unknowns - system%multipliers
   end subroutine count_equations
 
-  pure subroutine list_defaults(model, check)
+  !> What cards left to the program: of sections, and where their y axes are.
+  subroutine list_defaults(model, check)
     type(model_t), intent(in) :: model
     type(check_t), intent(inout) :: check
+    type(string_t) :: oriented(3)
     integer :: i, n
 
-    allocate (check%defaults(count([(model%section(i)%defaults /= "", i=1, size(model%section))])))
+    call list_orientations(model, oriented)
+    n = count([(model%section(i)%defaults /= "", i=1, size(model%section))])
+    allocate (check%defaults(n + count([(oriented(i)%s /= "", i=1, 3)])))
     n = 0
     do i = 1, size(model%section)
       associate (section => model%section(i))
@@ -166,7 +174,43 @@ contains
         check%defaults(n)%s = "defaults of SECTION "//trim(section%name)//": "//section%defaults
       end associate
     end do
+    do i = 1, 3
+      if (oriented(i)%s == "") cycle
+      n = n + 1
+      check%defaults(n) = oriented(i)
+    end do
   end subroutine list_defaults
+
+  !> For each global axis the beams of unequal second moments whose section's y axis it was made.
+  subroutine list_orientations(model, oriented)
+    type(model_t), intent(in) :: model
+    type(string_t), intent(out) :: oriented(3)
+    type(string_t) :: name(size(model%member))
+    integer :: e, axis, n
+
+    do axis = 1, 3
+      n = 0
+      do e = 1, size(model%member)
+        associate (member => model%member(e))
+          if (member%part > 1 .or. member%section == 0 .or. any(abs(member%orientation) > 0)) cycle
+          if (is_round(model%section(member%section)%constants)) cycle
+          if (maxloc(default_orientation(member%chord/norm2(member%chord)), 1) /= axis) cycle
+          n = n + 1
+          name(n)%s = to_text(member%id)
+        end associate
+      end do
+      oriented(axis)%s = ""
+      if (n > 0) oriented(axis)%s = "default of "//trim(merge("element ", "elements", n == 1))// &
+        " "//listed(name(:n), most_named, n)//": the section's y axis along "//axis_name(axis)
+    end do
+  end subroutine list_orientations
+
+  !> Bent alike about all axes.
+  pure logical function is_round(constants)
+    type(section_constants_t), intent(in) :: constants
+
+    is_round = abs(constants%iy - constants%iz) <= 1.0e-9_wp*constants%iy
+  end function is_round
 
   subroutine explain_constraints(model, system, found, all, here, finding, leads)
     type(model_t), intent(in) :: model

@@ -10,6 +10,7 @@ module analysis_run
   use nodal_state, only: state_t
   use system_data, only: system_t
   use system_motion, only: mark_timed
+  use system_names, only: node_name
   use system_build, only: build_system, find_system_pattern
   use system_assembly, only: iterate_t, new_iterate
   use start_assembly, only: assemble_start
@@ -77,6 +78,7 @@ contains
     if (allocated(error)) return
     call build_system(model, system)
     call assemble_start(model, system, state, error)
+    if (.not. allocated(error)) call tell_of_gaps(model, system, state, recorder)
     if (.not. allocated(error)) call warn_of_redundant(model, system, state, recorder, beside, &
                                                          error)
     if (allocated(error)) return
@@ -92,6 +94,23 @@ contains
     if (.not. all_static(model)) return
     deallocate (system%pattern%row, system%pattern%column)  ! the solver has its own
   end subroutine set_up
+
+  !> Say how far a model moves, before its first analysis, to where everything holds.
+  subroutine tell_of_gaps(model, system, state, recorder)
+    type(model_t), intent(in) :: model
+    type(system_t), intent(in) :: system
+    type(state_t), intent(in) :: state
+    class(recorder_t), intent(inout) :: recorder
+    real(wp), parameter :: seen = 1.0e-6_wp    !< of the model's length
+    real(wp) :: distance(size(state%displacement, 2))
+    integer :: i
+
+    distance = norm2(state%displacement, 1)
+    i = maxloc(distance, 1)
+    if (distance(i) > seen*system%length) call recorder%remark( &
+      "starts off the drawing, as constraints, drives or STARTX ask: "//node_name(model, i)// &
+      " by "//to_text(distance(i), 4))
+  end subroutine tell_of_gaps
 
   !> Whether all analyses follow equilibria.
   pure logical function all_static(model)

@@ -1,6 +1,6 @@
 !> Finds the row of the keyword table that a card is written by, and what each word must be.
 module deck_form
-  use text, only: upper, quoted, nearest_word, to_text, joined
+  use text, only: upper, quoted, nearest_word, to_text, joined, plural
   use diagnostics, only: report_t
   use deck_card, only: card_t
   use deck_wording, only: alternatives, option_values, counts, usage_text
@@ -324,9 +324,29 @@ contains
     end if
     best = nearest_word(card%word(w), usage%option%name)
     if (best /= "") best = "did you mean "//best//"?"
+    if (best == "") best = option_before(card, w, usage)
     call report%add_error(card%place(w), trim(usage%name)//" has no option "// &
                           quoted(card%word(w)), best)
   end subroutine complain_about_option
+
+  !> "ALONG takes 1 value: elements", of the option before a word that is one too many.
+  function option_before(card, w, usage) result(hint)
+    type(card_t), intent(in) :: card
+    integer, intent(in) :: w
+    type(usage_t), intent(in) :: usage
+    character(len=:), allocatable :: hint
+    integer :: i, k
+
+    hint = ""
+    if (verify(card%word(w), "+-.:0123456789eEdD") > 0) return
+    do i = w - 1, 2, -1
+      k = option_number(usage, card%word(i))
+      if (k == 0) cycle
+      hint = trim(usage%option(k)%name)//" takes "//plural(usage%option(k)%values, "value")
+      if (usage%option(k)%values > 0) hint = hint//": "//option_values(usage, k)
+      return
+    end do
+  end function option_before
 
   !> Too few or too many positional arguments, unless a word in their place is to blame.
   subroutine complain_about_number(card, usage, report)

@@ -13,6 +13,8 @@ contains
 
   subroutine run_log_tests()
     call run("run log: joints count as elements, motions show their constraints", motions)
+    call run("run log: a model drawn with a gap starts elsewhere", gap)
+    call run("check: axes that beams without an orientation take", orientations)
     call run("run log: a path by ARC ends at TO or STOP", arc)
   end subroutine run_log_tests
 
@@ -32,6 +34,47 @@ contains
     call run_spar("run decks/channel.deck -o "//path, outcome)
     call expect_text(outcome%output, "iterations   residual   increment   largest")
   end subroutine motions
+
+  !> The nearest place on the line of a node drawn 0.05 beside it is 0.05 away.
+  subroutine gap()
+    character(len=*), parameter :: rail = "MATERIAL m E 2e11 NU 0.3"//newline// &
+      "SECTION s RECT H 0.1 B 0.2"//newline//"NODE 1 0 0 0"//newline//"NODE 2 1 0 0"//newline// &
+      "BEAM 1 1 2 SECTION s MATERIAL m"//newline//"FIX 1"//newline//"SLIDER 2 3 ALONG 1"//newline// &
+      "INPUTE 2 1 0.1"//newline//"STATIC"//newline
+    type(outcome_t) :: outcome
+    character(len=:), allocatable :: path
+
+    path = scratch("log_gap.deck")
+    call make_file(path, "NODE 3 0.5 0.05 0"//newline//rail)
+    call run_spar("run "//path//" -o "//scratch("log_gap.h5"), outcome)
+    call expect(outcome%status == 0, "a node beside a rail: "//outcome%errors)
+    call expect_text(outcome%output, "starts off the drawing, as constraints, drives or STARTX "// &
+                     "ask: node 3 by 0.05"//newline)
+    call make_file(path, "NODE 3 0.5 0 0"//newline//rail)
+    call run_spar("run "//path//" -o "//scratch("log_gap.h5"), outcome)
+    call expect(outcome%status == 0 .and. index(outcome%output, "starts off") == 0, "no gap")
+  end subroutine gap
+
+  !> Along (1, 1, 0) Z is the least global axis, along X and Z it is Y and X; a square has none.
+  subroutine orientations()
+    character(len=*), parameter :: beams = "MATERIAL m E 2e11 NU 0.3"//newline// &
+      "SECTION s RECT H 0.1 B 0.2"//newline//"SECTION q RECT H 0.1 B 0.1"//newline// &
+      "NODE 1 0 0 0"//newline//"NODE 2 1 1 0"//newline//"NODE 3 2 1 0"//newline// &
+      "NODE 4 2 1 1"//newline//"NODE 5 2 2 1"//newline//"NODE 6 3 2 1"//newline// &
+      "BEAM 1 1 2 SECTION s MATERIAL m DIVIDE 2"//newline// &
+      "BEAM 2:3 {i} {i+1} SECTION s MATERIAL m"//newline//"BEAM 4 4 5 SECTION q MATERIAL m"// &
+      newline//"BEAM 5 5 6 0 1 0 SECTION s MATERIAL m"//newline//"FIX 1"//newline
+    type(outcome_t) :: outcome
+    character(len=:), allocatable :: path
+
+    path = scratch("log_axes.deck")
+    call make_file(path, beams)
+    call run_spar("check "//path, outcome)
+    call expect(outcome%status == 0, "beams in space: "//outcome%errors)
+    call expect_text(outcome%output, "default of element 3: the section's y axis along X"// &
+                     newline//"default of element 2: the section's y axis along Y"//newline// &
+                     "default of element 1: the section's y axis along Z"//newline)
+  end subroutine orientations
 
   !> A bar of EA = 100, 2 long: a force f stretches it by f/50, to 0.008 before f = 1 is reached.
   subroutine arc()
