@@ -163,12 +163,13 @@ $(B)/bench_%: tests/bench/bench_%.f90 $(B)/libspar.a $(B)/link
 
 install: DIR = $(DESTDIR)$(PREFIX)
 install: $(B)/spar  ## install under PREFIX=/usr/local, or under DESTDIR before that
-	install -d $(DIR)/bin $(DIR)/share/spar $(DIR)/share/doc/spar $(DIR)/share/man/man1
+	install -d $(DIR)/bin $(DIR)/share/doc/spar/docs/images $(DIR)/share/man/man1
 	install -m 755 $(B)/spar $(DIR)/bin/spar
-	install -m 644 LICENSE README.md CHANGELOG.md \
-	  $(filter-out docs/manual_%,$(wildcard docs/*.md)) $(DIR)/share/doc/spar
+	install -m 644 LICENSE README.md CHANGELOG.md $(DIR)/share/doc/spar
+	install -m 644 $(filter-out docs/manual_%,$(wildcard docs/*.md)) $(DIR)/share/doc/spar/docs
+	install -m 644 $(wildcard docs/images/*) $(DIR)/share/doc/spar/docs/images
 	$(if $(wildcard docs/spar.1),install -m 644 docs/spar.1 $(DIR)/share/man/man1/spar.1)
-	$(if $(wildcard decks/*),cp -R decks $(DIR)/share/spar/)
+	$(if $(wildcard decks/*),cp -R decks $(DIR)/share/doc/spar/)
 
 setup: $(CONFIG)  ## find or install compiler and libraries
 	@cat $(CONFIG)
