@@ -39,7 +39,8 @@ contains
   subroutine gap()
     character(len=*), parameter :: rail = "MATERIAL m E 2e11 NU 0.3"//newline// &
       "SECTION s RECT H 0.1 B 0.2"//newline//"NODE 1 0 0 0"//newline//"NODE 2 1 0 0"//newline// &
-      "BEAM 1 1 2 SECTION s MATERIAL m"//newline//"FIX 1"//newline//"SLIDER 2 3 ALONG 1"//newline// &
+      "BEAM 1 1 2 SECTION s MATERIAL m"//newline//"FIX 1"//newline//"SLIDER 2 3 ALONG 1"// &
+      newline// &
       "INPUTE 2 1 0.1"//newline//"STATIC"//newline
     type(outcome_t) :: outcome
     character(len=:), allocatable :: path
