@@ -168,6 +168,7 @@ contains
         do end = 1, 2
           at = maxval(joint%node(:, end))
           if (joint%node(1, end) > 0) at = joint%node(1, end)
+          if (at == 0) cycle
           if (model%node(at)%exists(1)) turning(at) = joint%node(2, end)
         end do
       end associate
