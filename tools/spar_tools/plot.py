@@ -9,6 +9,7 @@ from . import figures, surface
 from .results import IN_TIME, ResultError, Results
 from .shapes import Shapes
 
+PATHS, MODES = ("static", "stationary"), ("buckling", "eigen")
 
 def parser():
     """The command line."""
@@ -35,7 +36,7 @@ def parser():
                          help="another series: energy/kinetic, markers/NAME/Z, joints/ID/strain/1")
     history.add_argument("--time-unit", default="", metavar="TEXT", help="the deck's unit of time")
     history.add_argument("--y-label", metavar="TEXT")
-    frames = commands.add_parser("frames", help="deformed shapes of steps of a static analysis")
+    frames = commands.add_parser("frames", help="deformed shapes of steps of a path or a motion")
     frames.add_argument("--steps", nargs="+", type=int, metavar="N",
                         help="recorded steps, 0 the initial one (default: six)")
     modes = commands.add_parser("modes", help="mode shapes of a buckling or eigen analysis")
@@ -175,13 +176,14 @@ def draw_state(axes, shapes, state, view, outline, colour):
 def plot_frames(options):
     """A figure of deformed frames."""
     with Results(options.files[0]) as results:
-        group = results.analysis(options.analysis, ("static", "stationary"))
-        last = len(group["step"])
+        group = results.analysis(options.analysis, (*PATHS, *IN_TIME))
+        last = group["step"][-1]
         even = np.linspace(0, last, min(6, last + 1)).round().astype(int)
         steps = options.steps or sorted(set(even))
         shapes = Shapes(results)
         states = [results.step_state(group, step) for step in steps]
-        factor = [0.0 if step == 0 else group["load_factor"][step - 1] for step in steps]
+        level = results.levels(group, steps)
+        legend = "time" if results.in_time(group) else "load factor"
     cloud = np.concatenate([shapes.curves(state).reshape(-1, 3) for state in states])
     view = figures.View(options.view or best_plane(cloud))
     outline = options.outline and outline_points(options.outline)
@@ -189,16 +191,16 @@ def plot_frames(options):
     for k, (state, step) in enumerate(zip(states, steps)):
         colour = figures.PALE if step == 0 else figures.SHADES(k / max(1, len(steps) - 1))
         draw_state(axes, shapes, state, view, outline, colour)
-        axes.plot([], [], color=colour, lw=2, label=f"{factor[k]:.4g}")
+        axes.plot([], [], color=colour, lw=2, label=f"{level[k]:.4g}")
     figures.finish_view(axes, view, options.unit, figures.round_length(np.ptp(cloud, 0).max() / 4))
-    axes.legend(title="load factor", loc="center left", bbox_to_anchor=(1, 0.5))
+    axes.legend(title=legend, loc="center left", bbox_to_anchor=(1, 0.5))
     return figure
 
 
 def plot_modes(options):
     """A figure of mode shapes, one frame each."""
     with Results(options.files[0]) as results:
-        group = results.analysis(options.analysis, ("buckling", "eigen"))
+        group = results.analysis(options.analysis, MODES)
         kind = results.kind(group)
         values = group["load_factor" if kind == "buckling" else "frequency"][()]
         modes = options.modes or list(range(1, min(4, len(values)) + 1))
@@ -232,15 +234,16 @@ def plot_modes(options):
 def plot_surface(options, output):
     """Write a spatial picture of steps or modes."""
     with Results(options.files[0]) as results:
-        group = results.analysis(options.analysis)
-        steps = options.steps or [len(group["step"]) if "step" in group else 1]
+        group = results.analysis(options.analysis, (*MODES, *PATHS, *IN_TIME))
+        steps = options.steps or [group["step"][-1] if "step" in group else 1]
+        rows = results.rows(group, steps) if "step" in group else [mode - 1 for mode in steps]
         labels, largest = None, None
         if "step" not in group:
             largest = options.scale or np.ptp(results.position, 0).max() / 8
         elif len(steps) > 1:
-            labels = [f"{group['load_factor'][step - 1]:.3g} {options.load_unit}".strip()
-                      for step in steps]
-        surface.draw(results, group, [step - 1 for step in steps], output, field=options.field,
+            labels = [f"{level:.3g} {options.load_unit}".strip()
+                      for level in results.levels(group, steps)]
+        surface.draw(results, group, rows, output, field=options.field,
                      largest=largest, apart=[float(word) for word in options.apart.split(",")],
                      view=options.view, unit=options.unit, labels=labels, title=options.title)
 

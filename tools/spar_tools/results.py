@@ -146,17 +146,37 @@ class Results:
         except KeyError:
             raise ResultError(f"'{component}' is not a component: X, Y or Z") from None
 
+    def in_time(self, group):
+        """Whether an analysis is a motion in time."""
+        return self.kind(group) in IN_TIME
+
+    @staticmethod
+    def rows(group, steps):
+        """Rows from 0 of recorded steps."""
+        recorded = group["step"][()]
+        for step in steps:
+            if not recorded[0] <= step <= recorded[-1]:
+                raise ResultError(f"{group.name} has steps {recorded[0]} to {recorded[-1]},"
+                                  f" not {step}")
+        return [int(np.flatnonzero(recorded == step)[0]) for step in steps]
+
+    def levels(self, group, steps):
+        """Time or load factor of recorded steps; of the initial state 0."""
+        series = group["time" if self.in_time(group) else "load_factor"]
+        known = [step for step in steps if step > 0 or self.in_time(group)]
+        value = dict(zip(known, (series[row] for row in self.rows(group, known))))
+        return [value.get(step, 0.0) for step in steps]
+
     def step_state(self, group, step):
-        """Displacements, rotation matrices, warping of a recorded step from 1; 0: the initial."""
+        """Displacements, rotation matrices, warping of a recorded step; 0: the initial state, of a
+        motion in time the one it starts from."""
         nodes = len(self.position)
-        if step == 0:
+        if step == 0 and not self.in_time(group):
             return np.zeros((nodes, 3)), np.tile(np.eye(3), (nodes, 1, 1)), np.zeros(nodes)
         if "nodes/index" in group:
             raise ResultError(f"{group.name} has not kept all nodes: see OUTPUT NODES")
-        steps = len(group["step"])
-        if not 1 <= step <= steps:
-            raise ResultError(f"{group.name} has steps 1 to {steps}, not {step}")
-        displacement, euler, warping = (self.stacked(group, f"nodes/{name}")[step - 1]
+        row = self.rows(group, [step])[0]
+        displacement, euler, warping = (self.stacked(group, f"nodes/{name}")[row]
                                         for name in ("displacement", "euler", "warping"))
         return displacement, rotation_matrices(euler), warping
 

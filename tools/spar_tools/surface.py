@@ -30,7 +30,8 @@ def drawn_steps(results, group, rows):
     origin = [tuple(row) for row in results.file["VTKHDF/Steps/Origin"][()]]
     missing = [row + 1 for row in rows if (number, row) not in origin]
     if missing:
-        raise ResultError(f"{group.name} has no step or mode {missing[0]}")
+        raise ResultError(f"{group.name} has no drawing number {missing[0]}: of a motion in time"
+                          " some 200 states are drawn")
     return [origin.index((number, row)) for row in rows]
 
 
