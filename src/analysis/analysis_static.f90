@@ -7,7 +7,7 @@ module analysis_static
   use kinds, only: wp
   use errors, only: error_t, fail, exit_solve, exit_interrupt
   use text, only: to_text
-  use model_data, only: model_t, analysis_t, control_load, control_displacement
+  use model_data, only: model_t, analysis_t, control_load, control_displacement, stability_off
   use linalg_solver, only: solver_t
   use system_data, only: system_t
   use system_assembly, only: iterate_t
@@ -16,7 +16,7 @@ module analysis_static
   use equilibrium_path, only: safe_t, keep_safe, go_back, newton_options, check_dropped, &
                               check_angles, failure, reason, parameter_name
   use path_control, only: control_t
-  use stability_watch, only: watch_t, start_watch, watch_step
+  use stability_watch, only: watch_t, start_watch, watch_step, warn_of_unstable
   use system_measure, only: new_measure
   use analysis_compliance, only: add_compliance
   use recorder, only: recorder_t, step_t, iteration_t
@@ -70,6 +70,8 @@ contains
       call recorder%step(record, results, error)
       if (allocated(error)) return
     end do
+    if (analysis%stability == stability_off) call warn_of_unstable(system, solver, iterate, &
+                                                                   recorder, error)
   end subroutine run_static
 
   pure function new_control(model, analysis) result(control)

@@ -3,7 +3,7 @@
 module stability_watch
   use kinds, only: wp
   use errors, only: error_t, fail, exit_solve
-  use text, only: to_text
+  use text, only: to_text, plural
   use nodal_state, only: coordinate_number, node_coordinates
   use linalg_solver, only: solver_t
   use system_data, only: system_t
@@ -19,7 +19,7 @@ module stability_watch
   implicit none
   private
 
-  public :: watch_t, start_watch, watch_step
+  public :: watch_t, start_watch, watch_step, warn_of_unstable
 
   !> Bisections until the load factors of the bracket agree to 1e-6, halving a step each time.
   integer, parameter :: most_bisections = 40
@@ -130,6 +130,25 @@ contains
       if (solver%determinant_sign()*parity < 0) unstable = 1
     end if
   end subroutine count_unstable
+
+  !> Where nobody watches: a warning if the present equilibrium, assembled, is unstable. Tells
+  !> nothing of a tangent that is not symmetric, nor of a model that turns: gyroscopic forces may
+  !> hold it.
+  subroutine warn_of_unstable(system, solver, iterate, recorder, error)
+    type(system_t), intent(in) :: system
+    type(solver_t), intent(inout) :: solver
+    type(iterate_t), intent(in) :: iterate
+    class(recorder_t), intent(inout) :: recorder
+    type(error_t), allocatable, intent(out) :: error
+    integer :: unstable
+
+    if (.not. system%pattern%symmetric .or. size(system%rotor) > 0) return
+    call count_unstable(system, solver, iterate, unstable, error)
+    if (allocated(error) .or. unstable <= 0) return
+    call recorder%remark("warning: the equilibrium reached is unstable ("// &
+                         plural(unstable, "unstable mode")//"); STABILITY ON finds where that "// &
+                         "began")
+  end subroutine warn_of_unstable
 
   !> The first point between the equilibrium `before`, with `unstable` modes, and the present one
   !> where that number changes. `control` is that of the increment between them. The iterate is

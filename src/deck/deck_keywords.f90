@@ -249,9 +249,10 @@ contains
         "ramps the loads given since the last analysis. CONTROL LOAD (default): equal steps of "// &
         "the load factor to TO; CONTROL DISPLACEMENT: equal steps of a displacement of a node "// &
         "or marker to a value; CONTROL ARC: along the path, past limit points, to TO (1 unless "// &
-        "given) or STOP, whichever comes first. STABILITY counts unstable modes and locates "// &
-        "critical points, BRANCH ON switches to the secondary branch at the first bifurcation; "// &
-        "COMPLIANCE finds that of nodes at each step", &
+        "given) or STOP, whichever comes first. STABILITY ON counts unstable modes and "// &
+        "locates critical points, REQUIRED ends where stability is lost, OFF only warns if the "// &
+        "path ends in an unstable equilibrium; BRANCH ON switches to the "// &
+        "secondary branch at the first bifurcation; COMPLIANCE finds that of nodes at each step", &
         "STATIC STEPS 12 NAME lift", "mode 10", read_static), &
       keyword_t("STATIONARY", "analysis", "", static_options, &
         "finds the equilibrium of a model that turns steadily, in the frame that turns too: "// &

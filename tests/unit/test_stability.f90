@@ -22,6 +22,7 @@ contains
     call run("stability: a critical mode is that of the theory", mode_shape)
     call run("stability: a column buckles and is followed to 120 degrees", column)
     call run("stability: an imperfect column (IMPERFECTION)", imperfect)
+    call run("stability: beyond its Euler loads a column is said to be unstable", straight)
     call run("stability: critical points are kept in the result file", result_file)
   end subroutine run_stability_tests
 
@@ -44,6 +45,25 @@ contains
                 name//": one mode becomes unstable")
     call expect_close(memory%critical(1)%factor/wanted, 1.0_wp, tolerance, name)
   end subroutine expect_bifurcation
+
+  !> In one plane beyond 1, in both beyond 2, the ratio of the stiffnesses.
+  subroutine straight()
+    character(len=*), parameter :: part(3) = ["part=0.99", "part=1.01", "part=2.02"]
+    type(memory_t) :: memory
+    type(model_t) :: model
+    type(error_t), allocatable :: error
+    integer :: k
+
+    do k = 1, 3
+      call run_deck("straight_column", memory, model, error, part(k:k))
+      call expect(.not. allocated(error), "no error")
+      if (allocated(error)) return
+      call expect(size(memory%remarks) == merge(0, 1, k == 1), "a remark if it is unstable")
+      if (size(memory%remarks) == 0) cycle
+      call expect(index(memory%remarks(1)%s, "unstable ("//achar(k - 1 + iachar("0"))) > 0, &
+                  "how many modes")
+    end do
+  end subroutine straight
 
   !> With pre-buckling deflection, factor 1/sqrt((1 - Iz/Iy)(1 - GIt/EIy ...)): 78364.56 Nm.
   subroutine lateral()
