@@ -5,7 +5,7 @@ module lapack_interfaces
   private
 
   public :: dsytrf_rook, dsytrs_rook, dgetrf, dgetrs, dgeqp3, dormqr, dtrtrs, dsyev, dgeev
-  public :: dgtsv
+  public :: dgtsv, dgbtrf, dgbtrs
 
   interface
     !> Symmetric indefinite factorization P L D L^T P^T with bounded (rook) pivoting.
@@ -53,6 +53,28 @@ module lapack_interfaces
       real(wp), intent(inout) :: b(ldb, *)
       integer, intent(out) :: info
     end subroutine dgetrs
+
+    !> LU factorization of a band matrix with partial pivoting.
+    subroutine dgbtrf(m, n, kl, ku, ab, ldab, ipiv, info)
+      import :: wp
+      implicit none
+      integer, intent(in) :: m, n, kl, ku, ldab
+      real(wp), intent(inout) :: ab(ldab, *)
+      integer, intent(out) :: ipiv(*)
+      integer, intent(out) :: info
+    end subroutine dgbtrf
+
+    !> Solve with the factors of `dgbtrf`.
+    subroutine dgbtrs(trans, n, kl, ku, nrhs, ab, ldab, ipiv, b, ldb, info)
+      import :: wp
+      implicit none
+      character(len=1), intent(in) :: trans
+      integer, intent(in) :: n, kl, ku, nrhs, ldab, ldb
+      real(wp), intent(in) :: ab(ldab, *)
+      integer, intent(in) :: ipiv(*)
+      real(wp), intent(inout) :: b(ldb, *)
+      integer, intent(out) :: info
+    end subroutine dgbtrs
 
     !> Tridiagonal system; all diagonals are overwritten.
     subroutine dgtsv(n, nrhs, dl, d, du, b, ldb, info)

@@ -121,7 +121,8 @@ contains
       call scale_general(self%row, self%column, values, self%left, self%right, self%scaled)
     end if
     if (self%band%ready) then
-      call self%band%factorize(self%scaled)
+      call self%band%factorize(self%scaled, error)
+      if (allocated(error)) return
       self%method = merge(banded, self%other, self%band%regular)
       if (.not. self%has_room .and. .not. self%band%regular) call make_room(self, error)
       if (allocated(error)) return
@@ -197,7 +198,7 @@ contains
     case (dense_general)
       call self%lu%solve(x, error)
     case (banded)
-      call self%band%solve(x)
+      call self%band%solve(x, error)
     case default
       call self%mumps%solve(x, error)
     end select

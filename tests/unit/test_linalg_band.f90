@@ -133,6 +133,7 @@ contains
   !> system of the band alone, whatever the solver would do with it.
   subroutine test_exchanges()
     type(band_t) :: band
+    type(error_t), allocatable :: error
     integer, parameter :: n = 40
     real(wp) :: a(n, n), x(n)
     integer, allocatable :: row(:), column(:)
@@ -147,10 +148,11 @@ contains
     end do
     call coordinates(a, .false., row, column, values)
     call band%prepare(n, row, column, always)
-    call band%factorize(values)
-    call expect(band%regular, "regular")
+    call band%factorize(values, error)
+    call expect(.not. allocated(error) .and. band%regular, "regular")
     x = matmul(a, known(n))
-    call band%solve(x)
+    call band%solve(x, error)
+    call expect(.not. allocated(error), "solved")
     call expect_close(x, known(n), 1.0e-12_wp, "solution")
     call band%free()
   end subroutine test_exchanges
